@@ -1,0 +1,61 @@
+/* fraction: share of a box that the spheres fill, as the sum of the clipped
+   spheres (the paper's count) and as their union. Exact; --sampled adds the
+   paper's count on midpoints. */
+#include <stdio.h>
+#include <gsl/gsl_errno.h>
+#include "frames.h"
+#include "options.h"
+#include "verbs.h"
+#include "volume.h"
+
+int verb_fraction(int argc, char **argv) {
+  struct option_list box = {6, {0, 1, 0, 1, 0, 1}};
+  size_t sampled = 0;
+  bool allow_partial = false;
+  struct option_spec options[] = {
+      {"box", OPTION_LIST, &box, 6, 6, NULL, "m", "x0,x1,y0,y1,z0,z1", false,
+       false, NULL, NULL},
+      {"sampled", OPTION_SIZE, &sampled, 0, 4096, NULL, "0: none",
+       "count N^3 midpoints as well", false, false, NULL, NULL},
+      {"allow-partial", OPTION_FLAG, &allow_partial, 0, 0, NULL, "",
+       "take a file that is cut short or marked as failed", false, false,
+       NULL, NULL},
+      {0}};
+  const struct program program = {
+      .name = "analyze",
+      .summary =
+          "Volume fraction of spheres in a box, one row a frame: time (s),\n"
+          "sum of the clipped spheres and their union, each by the box.\n"
+          "Verbs: fraction.",
+      .usage = "[fraction] [OPTION...] [FILE]",
+      .example = "settle --model basic --seed 3 | analyze",
+      .options = options};
+  const int operand = options_parse(&program, argc, argv);
+  const double *b = box.at;
+  const double volume = (b[1] - b[0]) * (b[3] - b[2]) * (b[5] - b[4]);
+  if (!(b[1] > b[0] && b[3] > b[2] && b[5] > b[4]) || !(volume > 0))
+    die(EXIT_USAGE, "--box: expected x0 < x1, y0 < y1, z0 < z1");
+
+  struct frames frames;
+  struct bed bed = {0};
+  frames_open(&frames, argc, argv, operand, allow_partial);
+  for (bool first = true; frames_next(&frames, &bed); first = false) {
+    double united, sampled_sum, sampled_union;
+    if (volume_union(bed.n, bed.x, bed.r, b, &united) != GSL_SUCCESS)
+      die(EXIT_IO, "t=%g: out of memory", bed.t);
+    if (sampled && volume_sampled(bed.n, bed.x, bed.r, b, sampled,
+                                  &sampled_sum, &sampled_union) != GSL_SUCCESS)
+      die(EXIT_IO, "t=%g: out of memory", bed.t);
+    if (first)
+      printf("t\tsum\tunion%s\n",
+             sampled ? "\tsampled_sum\tsampled_union" : "");
+    printf("%.17g\t%.17g\t%.17g", bed.t,
+           volume_sum(bed.n, bed.x, bed.r, b) / volume, united / volume);
+    if (sampled)
+      printf("\t%.17g\t%.17g", sampled_sum / volume, sampled_union / volume);
+    putchar('\n');
+  }
+  frames_close(&frames);
+  finish_output();
+  return EXIT_DONE;
+}

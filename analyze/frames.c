@@ -1,0 +1,38 @@
+#define _POSIX_C_SOURCE 200809L
+#include "frames.h"
+
+#include <unistd.h>
+#include <gsl/gsl_errno.h>
+#include "files.h"
+#include "options.h"
+
+void frames_open(struct frames *f, int argc, char **argv, int first,
+                 bool allow_partial) {
+  if (first + 1 < argc)
+    die(EXIT_USAGE, "'%s': expected one file", argv[first + 1]);
+  const char *name;
+  f->in = input_open(first < argc ? argv[first] : NULL, &name);
+  if (f->in == stdin && isatty(STDIN_FILENO))
+    die(EXIT_USAGE, "expected a bed on standard input or a file; see --help");
+  f->reader = bed_reader_open(f->in, name, allow_partial);
+  if (!f->reader)
+    die(EXIT_IO, "out of memory");
+}
+
+bool frames_next(struct frames *f, struct bed *b) {
+  bed_free(b);
+  const int status = bed_reader_next(f->reader, b);
+  if (status == GSL_EINVAL) {
+    fflush(stdout); /* rows of the frames before it, then the reason */
+    die(EXIT_INPUT, "%s", bed_reader_error(f->reader));
+  }
+  if (status != GSL_SUCCESS && status != GSL_EOF)
+    die(EXIT_IO, "%s", gsl_strerror(status));
+  return status == GSL_SUCCESS;
+}
+
+void frames_close(struct frames *f) {
+  bed_reader_close(f->reader);
+  if (f->in != stdin)
+    fclose(f->in);
+}

@@ -1,0 +1,22 @@
+/* Spheres: who, where, how large, how fast. Rows of three doubles. */
+#ifndef BED_H
+#define BED_H
+
+#include <stddef.h>
+
+struct bed {
+  double t; /* s */
+  size_t n;
+  long *id;
+  double *x; /* centres, 3n (m) */
+  double *v; /* velocities, 3n (m/s) */
+  double *w; /* angular velocities, 3n (rad/s) */
+  double *r; /* radii, n (m) */
+  double *m; /* masses, n (kg) */
+};
+
+/* n spheres with ids 0..n-1, unit mass and all else zero. GSL_ENOMEM. */
+int bed_alloc(struct bed *b, size_t n);
+void bed_free(struct bed *b);
+
+#endif

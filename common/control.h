@@ -1,0 +1,15 @@
+/* The paper's step control as a gsl_odeiv2 control type. */
+#ifndef CONTROL_H
+#define CONTROL_H
+
+#include <gsl/gsl_odeiv2.h>
+
+/* Error per unit step: a step is accepted when 3 |E| / h < delta, with E the
+   embedded error estimate of every component as it comes, in m, m/s and rad/s
+   alike (for Merson 3 E/h = 0.2 k1 - 0.9 k3 + 0.8 k4 - 0.1 k5). The next step
+   is 0.8 (delta/error)^(1/5) h, or 2 h where the error is 0; growth is not
+   limited. Steps below 1e-9 s are accepted whatever their error. NULL without
+   memory. Tested in tests/test_steppers.c. */
+gsl_odeiv2_control *control_paper_new(double delta);
+
+#endif

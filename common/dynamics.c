@@ -1,0 +1,393 @@
+#include "dynamics.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_math.h>
+#include "allpairs.h"
+#include "jacobian.h"
+#include "kernel.h"
+#include "neighbors.h"
+
+struct dynamics {
+  struct kernel_data k;
+  const struct kernel *kernel;
+  struct dynamics_options options;
+  struct dynamics_counts counts;
+  size_t n, walls_count;
+  struct wall *walls;
+  double *radius, *mass;
+  struct neighbors near;
+  size_t *second_first, *wall_first; /* n + 1 */
+  uint32_t *second;
+  uint32_t *wall_sphere, *wall_id; /* room for n * walls */
+  double *rows;
+  size_t second_size, rows_size;
+  /* The list holds for states within skin/2 of reference, 3n. */
+  double *reference;
+  double skin;
+  size_t age; /* evaluations since it was built */
+};
+
+/* Cost of building the list, in evaluations; measured, only the skin depends
+   on it. */
+static const double build_cost = 4;
+
+void dynamics_free(struct dynamics *d) {
+  if (!d)
+    return;
+  neighbors_free(&d->near);
+  free(d->walls);
+  free(d->radius);
+  free(d->mass);
+  free(d->second_first);
+  free(d->wall_first);
+  free(d->second);
+  free(d->wall_sphere);
+  free(d->wall_id);
+  free(d->rows);
+  free(d->reference);
+  free(d);
+}
+
+/* malloc, filled from a source where there is one */
+static void *copy(const void *from, size_t bytes) {
+  void *to = calloc(1, bytes ? bytes : 1);
+  if (to && from && bytes)
+    memcpy(to, from, bytes);
+  return to;
+}
+
+struct dynamics *dynamics_alloc(const struct scene *s, const struct bed *b,
+                                const struct dynamics_options *o) {
+  if (b->n == 0)
+    return NULL;
+  bool uniform = true;
+  double smallest = GSL_POSINF;
+  for (size_t i = 0; i < b->n; i++) {
+    if (!(b->r[i] > 0) || !(b->m[i] > 0))
+      return NULL;
+    uniform = uniform && b->r[i] == b->r[0];
+    smallest = GSL_MIN(smallest, b->r[i]);
+  }
+  struct dynamics *d = calloc(1, sizeof *d);
+  if (!d)
+    return NULL;
+  const size_t n = b->n, room = n * s->walls_count;
+  d->n = n;
+  d->options = *o;
+  d->walls_count = s->walls_count;
+  d->walls = copy(s->walls, s->walls_count * sizeof *s->walls);
+  d->radius = copy(b->r, n * sizeof(double));
+  d->mass = copy(b->m, n * sizeof(double));
+  d->second_first = copy(NULL, (n + 1) * sizeof(size_t));
+  d->wall_first = copy(NULL, (n + 1) * sizeof(size_t));
+  d->wall_sphere = copy(NULL, room * sizeof(uint32_t));
+  d->wall_id = copy(NULL, room * sizeof(uint32_t));
+  d->reference = copy(NULL, 3 * n * sizeof(double));
+  if (!d->walls || !d->radius || !d->mass || !d->second_first ||
+      !d->wall_first || !d->wall_sphere || !d->wall_id || !d->reference) {
+    dynamics_free(d);
+    return NULL;
+  }
+  d->kernel = kernel_select();
+  d->skin = 0.2 * smallest;
+  d->k = (struct kernel_data){
+      .law = s->law,
+      .has = {.friction = scene_has_friction(s),
+              .rotation = scene_has_rotation(s),
+              .elastic = s->law.restitution == 1,
+              .uniform = uniform},
+      .gravity = {s->gravity[0], s->gravity[1], s->gravity[2]},
+      .radius = d->radius,
+      .mass = d->mass,
+      .walls = d->walls,
+      .second_first = d->second_first,
+      .wall_first = d->wall_first,
+      .wall_sphere = d->wall_sphere,
+      .wall_id = d->wall_id};
+  d->k.stride = d->k.has.rotation ? 9 : 6;
+  d->k.width = d->k.has.rotation ? 8 : 4;
+  d->age = SIZE_MAX; /* no list yet */
+  return d;
+}
+
+size_t dynamics_stride(const struct dynamics *d) {
+  return d->k.stride;
+}
+
+size_t dynamics_dimension(const struct dynamics *d) {
+  return d->k.stride * d->n;
+}
+
+struct dynamics_counts dynamics_counts(const struct dynamics *d) {
+  return d->counts;
+}
+
+const char *dynamics_kernel(const struct dynamics *d) {
+  return d->options.all_pairs ? "all pairs" : d->kernel->name;
+}
+
+void dynamics_pack(const struct dynamics *d, const struct bed *b, double y[]) {
+  for (size_t i = 0; i < d->n; i++)
+    for (int c = 0; c < 3; c++) {
+      double *row = y + i * d->k.stride;
+      row[c] = b->x[3 * i + c];
+      row[3 + c] = b->v[3 * i + c];
+      if (d->k.has.rotation)
+        row[6 + c] = b->w[3 * i + c];
+    }
+}
+
+void dynamics_unpack(const struct dynamics *d, const double y[],
+                     struct bed *b) {
+  for (size_t i = 0; i < d->n; i++)
+    for (int c = 0; c < 3; c++) {
+      const double *row = y + i * d->k.stride;
+      b->x[3 * i + c] = row[c];
+      b->v[3 * i + c] = row[3 + c];
+      if (d->k.has.rotation)
+        b->w[3 * i + c] = row[6 + c];
+    }
+}
+
+/* Wider skins are rebuilt less often but hold more idle pairs; both costs are
+   equal at the best skin. overhead: idle pairs' share of an evaluation. */
+static double skin_overhead(const struct dynamics *d) {
+  return 3 * d->skin / (2 * d->radius[0] + d->k.law.lmax + d->skin);
+}
+
+static void tune_skin(struct dynamics *d) {
+  const double idle = skin_overhead(d) * (double)d->age;
+  const double factor = sqrt(build_cost / GSL_MAX(idle, 1e-3));
+  const double r = d->radius[0];
+  d->skin *= GSL_MIN(GSL_MAX(factor, 0.7), 1.4);
+  d->skin = GSL_MIN(GSL_MAX(d->skin, 0.02 * r), 2 * r);
+}
+
+static int build_wall_list(struct dynamics *d, const double *y) {
+  const double reach = d->k.law.lmax + d->skin;
+  size_t count = 0;
+  for (size_t i = 0; i < d->n; i++) {
+    d->wall_first[i] = count;
+    for (size_t m = 0; m < d->walls_count; m++) {
+      const double gap =
+          wall_distance(&d->walls[m], y + i * d->k.stride) - d->radius[i];
+      if (gap <= reach) {
+        d->wall_sphere[count] = (uint32_t)i;
+        d->wall_id[count++] = (uint32_t)m;
+      }
+    }
+  }
+  d->wall_first[d->n] = count;
+  d->k.wall_contacts = count;
+  return GSL_SUCCESS;
+}
+
+/* For each sphere the pairs of which it is the second partner, ascending. */
+static int build_second_list(struct dynamics *d) {
+  const struct neighbors *near = &d->near;
+  if (near->size > d->second_size) {
+    uint32_t *second = realloc(d->second, near->size * sizeof *second);
+    if (!second)
+      return GSL_ENOMEM;
+    d->second = second;
+    d->second_size = near->size;
+  }
+  size_t *first = d->second_first;
+  memset(first, 0, (d->n + 1) * sizeof *first);
+  for (size_t p = 0; p < near->count; p++)
+    first[near->j[p] + 1]++;
+  for (size_t i = 0; i < d->n; i++)
+    first[i + 1] += first[i];
+  for (size_t p = 0; p < near->count; p++)
+    d->second[first[near->j[p]]++] = (uint32_t)p;
+  for (size_t i = d->n; i > 0; i--)
+    first[i] = first[i - 1];
+  first[0] = 0;
+  return GSL_SUCCESS;
+}
+
+static int build_list(struct dynamics *d, const double *y) {
+  if (d->age != SIZE_MAX)
+    tune_skin(d);
+  d->age = SIZE_MAX; /* stays so if anything below fails */
+  int status = neighbors_find(&d->near, d->n, y, d->k.stride, d->radius,
+                              d->k.law.lmax + d->skin);
+  if (status == GSL_SUCCESS)
+    status = build_second_list(d);
+  if (status == GSL_SUCCESS)
+    status = build_wall_list(d, y);
+  if (status != GSL_SUCCESS)
+    return status == GSL_EINVAL ? GSL_EBADFUNC : status;
+  const size_t contacts = d->near.count + d->k.wall_contacts;
+  if (contacts > d->rows_size) {
+    const size_t size = contacts + contacts / 4;
+    free(d->rows);
+    d->rows_size = 0;
+    /* rows are padded to a power of two; the padding stays zero */
+    d->rows = calloc(size * d->k.width, sizeof *d->rows);
+    if (!d->rows)
+      return GSL_ENOMEM;
+    d->rows_size = size;
+  }
+  for (size_t i = 0; i < d->n; i++)
+    memcpy(d->reference + 3 * i, y + i * d->k.stride, 3 * sizeof *y);
+  d->k.pairs = d->near.count;
+  d->k.i = d->near.i;
+  d->k.j = d->near.j;
+  d->k.first = d->near.first;
+  d->k.second = d->second;
+  d->k.rows = d->rows;
+  d->counts.builds++;
+  d->counts.contacts = contacts;
+  d->age = 0;
+  return GSL_SUCCESS;
+}
+
+/* Makes the list hold for y; the result does not depend on when it was built,
+   since pairs beyond lmax add zero and the order is always that of ids. */
+static int update_list(struct dynamics *d, const double *y) {
+  if (d->age == SIZE_MAX)
+    return build_list(d, y);
+  const double most = 0.25 * d->skin * d->skin;
+  double furthest = 0;
+  for (size_t i = 0; i < d->n; i++) {
+    const double *x = y + i * d->k.stride, *x0 = d->reference + 3 * i;
+    const double dx = x[0] - x0[0], dy = x[1] - x0[1], dz = x[2] - x0[2];
+    const double moved = dx * dx + dy * dy + dz * dz;
+    furthest = furthest > moved ? furthest : moved; /* keeps a NaN out ... */
+    if (moved != moved)
+      return GSL_EBADFUNC; /* ... of the list */
+  }
+  const bool too_wide = skin_overhead(d) * (double)d->age > 8 * build_cost &&
+                        d->skin > 0.03 * d->radius[0];
+  if (furthest > most || too_wide)
+    return build_list(d, y);
+  return GSL_SUCCESS;
+}
+
+static bool evaluate_all_pairs(struct dynamics *d, const double *y,
+                               double *dydt) {
+  bool finite = true;
+#pragma omp parallel for num_threads(d->options.threads) schedule(static)      \
+    reduction(&& : finite)
+  for (size_t i = 0; i < d->n; i++)
+    finite = allpairs_rates(&d->k, d->walls_count, d->n, y, dydt, i, i + 1) &&
+             finite;
+  return finite;
+}
+
+static bool evaluate_list(struct dynamics *d, const double *y, double *dydt) {
+  const size_t contacts = d->k.pairs + d->k.wall_contacts;
+  if (d->options.threads == 1) {
+    d->kernel->contacts(&d->k, y, 0, contacts);
+    return d->kernel->gather(&d->k, y, dydt, 0, d->n);
+  }
+  /* Chunks of a fixed size: what a thread computes never depends on how many
+     there are. */
+  enum { CONTACTS = 128, SPHERES = 32 };
+  const size_t contact_chunks = (contacts + CONTACTS - 1) / CONTACTS;
+  const size_t sphere_chunks = (d->n + SPHERES - 1) / SPHERES;
+  bool finite = true;
+#pragma omp parallel num_threads(d->options.threads)
+  {
+#pragma omp for schedule(static)
+    for (size_t c = 0; c < contact_chunks; c++)
+      d->kernel->contacts(&d->k, y, c * CONTACTS,
+                          GSL_MIN((c + 1) * CONTACTS, contacts));
+#pragma omp for schedule(static) reduction(&& : finite)
+    for (size_t c = 0; c < sphere_chunks; c++)
+      finite = d->kernel->gather(&d->k, y, dydt, c * SPHERES,
+                                 GSL_MIN((c + 1) * SPHERES, d->n)) &&
+               finite;
+  }
+  return finite;
+}
+
+int dynamics_rhs(double t, const double y[], double dydt[], void *params) {
+  (void)t;
+  struct dynamics *d = params;
+  d->counts.evaluations++;
+  if (d->options.all_pairs)
+    return evaluate_all_pairs(d, y, dydt) ? GSL_SUCCESS : GSL_EBADFUNC;
+  const int status = update_list(d, y);
+  if (status != GSL_SUCCESS)
+    return status;
+  d->age++;
+  return evaluate_list(d, y, dydt) ? GSL_SUCCESS : GSL_EBADFUNC;
+}
+
+int dynamics_jacobian(double t, const double y[], double *dfdy, double dfdt[],
+                      void *params) {
+  (void)t;
+  struct dynamics *d = params;
+  const int status = update_list(d, y);
+  if (status != GSL_SUCCESS)
+    return status;
+  memset(dfdt, 0, dynamics_dimension(d) * sizeof *dfdt);
+  jacobian_dense(&d->k, d->n, y, dfdy);
+  return GSL_SUCCESS;
+}
+
+double dynamics_step_limit(const struct dynamics *d, const double y[],
+                           const double dydt[], double travel) {
+  double fastest = 0; /* of 2 travel / h */
+  for (size_t i = 0; i < d->n; i++) {
+    const double v = vec3_norm(y + i * d->k.stride + 3);
+    const double a = vec3_norm(dydt + i * d->k.stride + 3);
+    fastest = GSL_MAX(fastest, v + sqrt(v * v + 2 * a * travel));
+  }
+  return 2 * travel / fastest;
+}
+
+double dynamics_kinetic(const struct dynamics *d, const double y[]) {
+  double sum = 0;
+  for (size_t i = 0; i < d->n; i++) {
+    const double *row = y + i * d->k.stride;
+    double twice = vec3_dot(row + 3, row + 3);
+    if (d->k.has.rotation)
+      twice +=
+          0.4 * d->radius[i] * d->radius[i] * vec3_dot(row + 6, row + 6);
+    sum += 0.5 * d->mass[i] * twice;
+  }
+  return sum;
+}
+
+double dynamics_potential(struct dynamics *d, const double y[]) {
+  if (update_list(d, y) != GSL_SUCCESS)
+    return GSL_NAN;
+  const struct contact_law *law = &d->k.law;
+  const size_t stride = d->k.stride;
+  double sum = 0;
+  for (size_t i = 0; i < d->n; i++)
+    sum -= d->mass[i] * vec3_dot(d->k.gravity, y + i * stride);
+  for (size_t p = 0; p < d->k.pairs; p++) {
+    const size_t i = d->k.i[p], j = d->k.j[p];
+    double u[3];
+    vec3_sub(y + i * stride, y + j * stride, u);
+    const double gap = vec3_norm(u) - d->radius[i] - d->radius[j];
+    if (gap <= law->lmax)
+      sum += contact_energy(law, gap);
+  }
+  for (size_t p = 0; p < d->k.wall_contacts; p++) {
+    const size_t i = d->wall_sphere[p];
+    const double gap =
+        wall_distance(&d->walls[d->wall_id[p]], y + i * stride) -
+        d->radius[i];
+    if (gap <= law->lmax)
+      sum += contact_energy(law, gap);
+  }
+  return sum;
+}
+
+double dynamics_fastest(const struct dynamics *d, const double y[]) {
+  double fastest = 0;
+  for (size_t i = 0; i < d->n; i++) {
+    const double *row = y + i * d->k.stride;
+    fastest = GSL_MAX(fastest, vec3_norm(row + 3));
+    if (d->k.has.rotation)
+      fastest = GSL_MAX(fastest, d->radius[i] * vec3_norm(row + 6));
+  }
+  return fastest;
+}

@@ -1,0 +1,23 @@
+/* Files that appear whole or not at all. */
+#ifndef FILES_H
+#define FILES_H
+
+#include <stdio.h>
+
+/* Written beside its final name and renamed when complete; a path that is not
+   a regular file (a pipe, /dev/null) is written directly. */
+struct output_file {
+  const char *path;
+  char *partial; /* NULL where written directly */
+  FILE *stream;
+};
+
+/* Both exit with EXIT_IO and one line that names the file on failure. */
+void output_open(struct output_file *f, const char *path);
+void output_commit(struct output_file *f);
+
+/* Opens FILE for reading, or standard input for "-" or NULL; exits with
+   EXIT_IO if it cannot be read. name becomes what messages call it. */
+FILE *input_open(const char *path, const char **name);
+
+#endif

@@ -1,0 +1,67 @@
+/* A free-running integration: stepper and step control by name, one accepted
+   step at a time, outputs interpolated between steps so that asking for more
+   of them changes no trajectory. Tested in tests/test_integrate.c. */
+#ifndef INTEGRATE_H
+#define INTEGRATE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <gsl/gsl_odeiv2.h>
+
+/* Names of methods and controls, NULL-terminated. */
+extern const char *const integrate_methods[];
+extern const char *const integrate_controls[];
+
+struct integrate_options {
+  const char *method;
+  const char *control;   /* unused where step > 0 */
+  double tol;            /* paper: delta; standard: abstol where that is 0 */
+  double abstol, reltol; /* standard control, per unknown's scale */
+  double hinit;          /* first trial step (s) */
+  double hmax;           /* longest step (s), 0: none */
+  double step;           /* fixed step (s), 0: adaptive */
+};
+
+struct integrate_problem {
+  gsl_odeiv2_system system;
+  /* What standard control measures each unknown's error in: dimension. */
+  const double *scale;
+  /* Rows of unknowns, each beginning with so many positions, for methods that
+     tell them from velocities. */
+  size_t row, positions;
+  /* Longest step allowed at a state with the given derivative, or NULL. */
+  double (*step_limit)(const double y[], const double dydt[], void *params);
+};
+
+struct integrate_counts {
+  size_t accepted, rejected;
+};
+
+struct integrator;
+
+/* A copy of y at time t is the start. Returns GSL_SUCCESS, GSL_EINVAL for an
+   unknown name or options that do not fit together (a method without error
+   estimate needs a fixed step), GSL_ENOMEM. problem->system must outlive the
+   integrator. */
+int integrate_alloc(struct integrator **it, const struct integrate_options *o,
+                    const struct integrate_problem *problem, double t,
+                    const double y[]);
+void integrate_free(struct integrator *it);
+
+/* One accepted step. GSL_SUCCESS, or an error after which time and state are
+   those before the step: GSL_FAILURE when no step is short enough for the
+   control or a right-hand side that is not finite. */
+int integrate_step(struct integrator *it);
+
+double integrate_time(const struct integrator *it);
+const double *integrate_state(const struct integrator *it);
+double integrate_last_step(const struct integrator *it);
+struct integrate_counts integrate_counts(const struct integrator *it);
+/* Derivative at the end of the last step. */
+const double *integrate_derivative(const struct integrator *it);
+
+/* State at a time within the last step, by a cubic Hermite polynomial. Before
+   the first step the start is all there is. GSL_EDOM outside. */
+int integrate_at(const struct integrator *it, double t, double y[]);
+
+#endif

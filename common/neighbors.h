@@ -1,0 +1,30 @@
+/* Pairs of spheres close to each other, found with a cell grid in O(n). */
+#ifndef NEIGHBORS_H
+#define NEIGHBORS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* Pair p joins spheres i[p] < j[p]; pairs are sorted by (i, j). Sphere i's
+   pairs as the first partner are first[i] <= p < first[i+1]. Zero-initialise;
+   neighbors_find grows the arrays and reuses them. */
+struct neighbors {
+  size_t count, size;   /* pairs held, pairs there is room for */
+  uint32_t *i, *j;      /* count */
+  size_t *first;        /* spheres + 1 */
+  size_t spheres_size;
+  void *grid;           /* scratch of the cell grid */
+  size_t grid_size;
+};
+
+/* Lists every pair whose gap |x_i - x_j| - r_i - r_j is at most reach (m).
+   x: n rows, stride doubles apart, that begin with x, y, z; radius: n.
+   Returns GSL_SUCCESS, GSL_EINVAL for a coordinate that is not finite or n
+   over 2^32 - 2, GSL_ENOMEM; then the list is empty. One list per thread.
+   Tested in tests/test_neighbors.c against all pairs. */
+int neighbors_find(struct neighbors *nb, size_t n, const double *x,
+                   size_t stride, const double *radius, double reach);
+
+void neighbors_free(struct neighbors *nb);
+
+#endif

@@ -1,0 +1,78 @@
+/* Command lines and parameter headers from one table; messages and exit
+   status. */
+#ifndef OPTIONS_H
+#define OPTIONS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum exit_code {
+  EXIT_DONE = 0,
+  EXIT_IO = 1,
+  EXIT_USAGE = 2,
+  EXIT_INPUT = 3,
+  EXIT_INTEGRATION = 4,
+  EXIT_LIMIT = 5
+};
+
+enum option_type {
+  OPTION_FLAG,   /* bool */
+  OPTION_DOUBLE, /* double between least and most */
+  OPTION_SIZE,   /* size_t between least and most */
+  OPTION_TEXT,   /* const char *; one of choices where there are any */
+  OPTION_LIST    /* struct option_list of between least and most numbers */
+};
+
+struct option_list {
+  size_t count;
+  double at[8];
+};
+
+struct option_spec {
+  const char *name; /* without dashes */
+  enum option_type type;
+  void *value; /* holds the default until it is set */
+  double least, most;
+  const char *const *choices; /* NULL-terminated */
+  const char *unit, *help;
+  bool parameter; /* of the scene: stands in a bed's header */
+  bool given;     /* set from the command line */
+  /* For a repeatable option: called with every value instead of storing it. */
+  int (*each)(const struct option_list *value, void *context);
+  void *context;
+};
+
+/* The largest count a double holds exactly. */
+#define OPTION_MANY 9007199254740992.0
+
+struct program {
+  const char *name, *summary, *usage, *example;
+  struct option_spec *options; /* ends with a NULL name */
+};
+
+/* Prints "PROGRAM: MESSAGE" on one line of standard error and exits. */
+_Noreturn void die(enum exit_code code, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+/* The same without leaving. */
+void warn(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* Sets up a program (name for messages, GSL's error handler off, SIGPIPE as
+   an error) and parses its command line; --help and --version print and exit,
+   a mistake exits with EXIT_USAGE. Returns the index of the first operand. */
+int options_parse(const struct program *p, int argc, char **argv);
+
+/* Sets one option from text. NULL, or what was expected, in a static buffer of
+   the calling thread's. */
+const char *option_set(struct option_spec *o, const char *text);
+struct option_spec *option_find(struct option_spec *options, const char *name);
+
+/* The value as text, as option_set reads it; %.17g for numbers. */
+void option_text(const struct option_spec *o, char *text, size_t size);
+
+/* Parses a whole string as a finite number. */
+bool parse_double(const char *text, double *value);
+
+/* Flushes standard output; exits with EXIT_IO if anything was not written. */
+void finish_output(void);
+
+#endif

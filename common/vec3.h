@@ -1,0 +1,37 @@
+/* Operations on double[3]: coordinates in metres, or whatever unit the caller
+   uses throughout. Pure inline functions, safe in any thread. */
+#ifndef VEC3_H
+#define VEC3_H
+
+#include <math.h>
+
+static inline double vec3_dot(const double a[3], const double b[3]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* c = a x b; c may not be a or b. */
+static inline void vec3_cross(const double a[3], const double b[3],
+                              double c[3]) {
+  c[0] = a[1] * b[2] - a[2] * b[1];
+  c[1] = a[2] * b[0] - a[0] * b[2];
+  c[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static inline double vec3_norm(const double a[3]) {
+  return sqrt(vec3_dot(a, a));
+}
+
+/* c = a - b */
+static inline void vec3_sub(const double a[3], const double b[3],
+                            double c[3]) {
+  for (int k = 0; k < 3; k++)
+    c[k] = a[k] - b[k];
+}
+
+/* y += s x */
+static inline void vec3_axpy(double s, const double x[3], double y[3]) {
+  for (int k = 0; k < 3; k++)
+    y[k] += s * x[k];
+}
+
+#endif

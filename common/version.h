@@ -1,0 +1,7 @@
+/* One version for all programs. */
+#ifndef VERSION_H
+#define VERSION_H
+
+#define DEM_VERSION "0.1.0"
+
+#endif

@@ -1,0 +1,265 @@
+#define _POSIX_C_SOURCE 200809L
+#include "run.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_math.h>
+#include "dynamics.h"
+#include "files.h"
+
+/* At rest: no surface faster than vmin, the speed below which the model's own
+   friction lets a loaded contact creep, for so long (s). */
+static const double rest_time = 0.1;
+
+struct run {
+  const struct settings *set;
+  const struct bed_header *header;
+  struct bed *bed;
+  struct dynamics *dynamics;
+  struct integrator *integrator;
+  double *y; /* interpolated state */
+  double start, moved; /* time of the start, and when last not at rest */
+  size_t frames;       /* written */
+  FILE *log;
+  double wall_start, cpu_start, shown;
+  bool show;
+};
+
+static double seconds(clockid_t clock) {
+  struct timespec t;
+  clock_gettime(clock, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* The system's params: dynamics_rhs wants a struct dynamics, the limit the
+   distance too. */
+struct limited {
+  struct dynamics *dynamics;
+  double travel;
+};
+
+static int rhs(double t, const double y[], double dydt[], void *params) {
+  return dynamics_rhs(t, y, dydt, ((struct limited *)params)->dynamics);
+}
+
+static int jacobian(double t, const double y[], double *dfdy, double dfdt[],
+                    void *params) {
+  return dynamics_jacobian(t, y, dfdy, dfdt,
+                           ((struct limited *)params)->dynamics);
+}
+
+static double step_limit(const double y[], const double dydt[], void *params) {
+  const struct limited *l = params;
+  return dynamics_step_limit(l->dynamics, y, dydt, l->travel);
+}
+
+/* Errors are measured in what matters to a contact: gaps in 1/kappa, speeds of
+   surfaces in m/s, so spins times radius. */
+static void fill_scale(const struct run *r, double *scale) {
+  const size_t stride = dynamics_stride(r->dynamics);
+  for (size_t i = 0; i < r->bed->n; i++)
+    for (size_t c = 0; c < stride; c++)
+      scale[i * stride + c] = c < 3   ? 1 / r->set->scene.law.kappa
+                              : c < 6 ? 1
+                                      : 1 / r->bed->r[i];
+}
+
+static void write_frame(struct run *r, const double *y, double t) {
+  static const struct bed_header none = {0};
+  dynamics_unpack(r->dynamics, y, r->bed);
+  r->bed->t = t;
+  if (r->frames)
+    bed_write_gap(stdout);
+  bed_write_frame(stdout, r->frames ? &none : r->header, r->bed,
+                  dynamics_stride(r->dynamics) == 9);
+  r->frames++;
+  if (ferror(stdout))
+    finish_output(); /* does not return */
+}
+
+static double frame_time(const struct run *r, size_t k) {
+  const struct settings *s = r->set;
+  if (s->frames == 1)
+    return s->time;
+  return r->start +
+         (s->time - r->start) * (double)k / (double)(s->frames - 1);
+}
+
+/* Every frame that is due by now. */
+static void write_due_frames(struct run *r) {
+  const double t = integrate_time(r->integrator);
+  while (r->frames < r->set->frames && frame_time(r, r->frames) <= t) {
+    const double at = frame_time(r, r->frames);
+    if (integrate_at(r->integrator, at, r->y) == GSL_SUCCESS)
+      write_frame(r, r->y, at);
+    else
+      die(EXIT_IO, "internal error: frame at t=%g outside the last step", at);
+  }
+}
+
+static void write_log(struct run *r) {
+  const double *y = integrate_state(r->integrator);
+  fprintf(r->log, "%.17g\t%.17g\t%zu\t%zu\t%.17g\t%.17g\n",
+          integrate_time(r->integrator), integrate_last_step(r->integrator),
+          integrate_counts(r->integrator).accepted,
+          dynamics_counts(r->dynamics).evaluations,
+          dynamics_kinetic(r->dynamics, y),
+          dynamics_potential(r->dynamics, y));
+}
+
+static void show_progress(struct run *r) {
+  const double elapsed = seconds(CLOCK_MONOTONIC) - r->wall_start;
+  if (!r->show || elapsed < r->shown + 0.5)
+    return;
+  r->shown = elapsed;
+  const double t = integrate_time(r->integrator);
+  const double done = (t - r->start) / (r->set->time - r->start);
+  fprintf(stderr,
+          "\rsettle: %3.0f %%  t=%.3f s  h=%.2e s  %zu evaluations  %.0f s "
+          "left \033[K",
+          100 * done, t, integrate_last_step(r->integrator),
+          dynamics_counts(r->dynamics).evaluations,
+          elapsed * (1 - done) / GSL_MAX(done, 1e-9));
+}
+
+static bool at_rest(struct run *r) {
+  const double t = integrate_time(r->integrator);
+  if (dynamics_fastest(r->dynamics, integrate_state(r->integrator)) >=
+      r->set->scene.law.vmin)
+    r->moved = t;
+  return t - r->moved >= rest_time;
+}
+
+static void write_stats(const struct run *r, double t_end, int status) {
+  struct output_file f;
+  output_open(&f, r->set->stats);
+  const struct settings *s = r->set;
+  const struct integrate_counts steps = integrate_counts(r->integrator);
+  const struct dynamics_counts counts = dynamics_counts(r->dynamics);
+  fprintf(f.stream, "method\t%s\n", s->integrate.method);
+  fprintf(f.stream, "control\t%s\n",
+          s->integrate.step > 0 ? "none" : s->integrate.control);
+  fprintf(f.stream, "spheres\t%zu\n", r->bed->n);
+  fprintf(f.stream, "unknowns\t%zu\n", dynamics_dimension(r->dynamics));
+  fprintf(f.stream, "rhs_evaluations\t%zu\n", counts.evaluations);
+  fprintf(f.stream, "steps_accepted\t%zu\n", steps.accepted);
+  fprintf(f.stream, "steps_rejected\t%zu\n", steps.rejected);
+  fprintf(f.stream, "cpu_seconds\t%.6f\n",
+          seconds(CLOCK_PROCESS_CPUTIME_ID) - r->cpu_start);
+  fprintf(f.stream, "wall_seconds\t%.6f\n",
+          seconds(CLOCK_MONOTONIC) - r->wall_start);
+  fprintf(f.stream, "threads\t%zu\n", s->threads);
+  fprintf(f.stream, "kernel\t%s\n", dynamics_kernel(r->dynamics));
+  fprintf(f.stream, "t_end\t%.17g\n", t_end);
+  fprintf(f.stream, "pair_list_builds\t%zu\n", counts.builds);
+  fprintf(f.stream, "contacts_listed\t%zu\n", counts.contacts);
+  fprintf(f.stream, "exit_status\t%d\n", status);
+  output_commit(&f);
+}
+
+/* Steps until the end, rest or failure; the exit status and, in reason, what
+   the bed is marked with. */
+static int integrate_all(struct run *r, char *reason, size_t size) {
+  const struct settings *s = r->set;
+  snprintf(reason, size, "ok");
+  write_due_frames(r);
+  while (integrate_time(r->integrator) < s->time) {
+    const int status = integrate_step(r->integrator);
+    const double t = integrate_time(r->integrator);
+    if (status != GSL_SUCCESS) {
+      snprintf(reason, size, "failed at t=%.6g: %s", t,
+               status == GSL_FAILURE
+                   ? "no step is short enough for the tolerance"
+                   : gsl_strerror(status));
+      warn("t=%.6g: %s; the bed is marked as failed", t,
+           reason + strcspn(reason, ":") + 2);
+      return EXIT_INTEGRATION;
+    }
+    if (r->log)
+      write_log(r);
+    write_due_frames(r);
+    show_progress(r);
+    if (s->until_rest && at_rest(r))
+      return EXIT_DONE;
+  }
+  if (!s->until_rest)
+    return EXIT_DONE;
+  snprintf(reason, size, "limit: not at rest at t=%g", s->time);
+  warn("not at rest at t=%g: surfaces still move at %.3g m/s, expected below "
+       "vmin = %g m/s",
+       s->time,
+       dynamics_fastest(r->dynamics, integrate_state(r->integrator)),
+       s->scene.law.vmin);
+  return EXIT_LIMIT;
+}
+
+int run(const struct settings *s, struct bed *b,
+        const struct bed_header *header) {
+  struct run r = {.set = s, .header = header, .bed = b, .start = b->t};
+  r.moved = b->t;
+  r.wall_start = seconds(CLOCK_MONOTONIC);
+  r.cpu_start = seconds(CLOCK_PROCESS_CPUTIME_ID);
+  r.show = !s->quiet && isatty(STDERR_FILENO);
+  r.dynamics = dynamics_alloc(
+      &s->scene, b,
+      &(struct dynamics_options){.all_pairs = !strcmp(s->pairs, "all"),
+                                 .threads = (int)s->threads});
+  if (!r.dynamics)
+    die(EXIT_IO, "out of memory");
+  const size_t dim = dynamics_dimension(r.dynamics);
+  double *scale = malloc(dim * sizeof *scale);
+  r.y = malloc(dim * sizeof *r.y);
+  if (!scale || !r.y)
+    die(EXIT_IO, "out of memory");
+  dynamics_pack(r.dynamics, b, r.y);
+  fill_scale(&r, scale);
+  struct limited limited = {r.dynamics,
+                            s->travel / s->scene.law.kappa};
+  const struct integrate_problem problem = {
+      .system = {.function = rhs,
+                 .jacobian = jacobian,
+                 .dimension = dim,
+                 .params = &limited},
+      .scale = scale,
+      .row = dynamics_stride(r.dynamics),
+      .positions = 3,
+      .step_limit = s->travel > 0 ? step_limit : NULL};
+  const int status = integrate_alloc(&r.integrator, &s->integrate, &problem,
+                                     b->t, r.y);
+  if (status != GSL_SUCCESS)
+    die(status == GSL_EINVAL ? EXIT_USAGE : EXIT_IO,
+        "method %s: %s", s->integrate.method, gsl_strerror(status));
+  struct output_file log;
+  if (s->log) {
+    output_open(&log, s->log);
+    r.log = log.stream;
+    fputs("t\th\tsteps\tevaluations\tkinetic\tpotential\n", r.log);
+  }
+
+  char reason[160];
+  const int code = integrate_all(&r, reason, sizeof reason);
+  if (r.show)
+    fputs("\r\033[K", stderr);
+  const double t_end = GSL_MIN(integrate_time(r.integrator), s->time);
+  /* ended before the last frame: the state reached is one more */
+  if (r.frames < s->frames) {
+    if (integrate_at(r.integrator, t_end, r.y) != GSL_SUCCESS)
+      die(EXIT_IO, "internal error: no state at t=%g", t_end);
+    write_frame(&r, r.y, t_end);
+  }
+  bed_write_status(stdout, reason);
+  finish_output();
+  if (s->log)
+    output_commit(&log);
+  if (s->stats)
+    write_stats(&r, t_end, code);
+  integrate_free(r.integrator);
+  dynamics_free(r.dynamics);
+  free(scale);
+  free(r.y);
+  return code;
+}

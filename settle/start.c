@@ -1,0 +1,155 @@
+#include "start.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <gsl/gsl_errno.h>
+#include "files.h"
+#include "neighbors.h"
+#include "version.h"
+
+/* Settled spheres overlap, the more so the softer they are (kappa = 30: by
+   0.12 m); closer than this they were never a bed. */
+static const double closest = 0.4; /* of the sum of radii */
+
+static void check_memory(int status) {
+  if (status == GSL_ENOMEM)
+    die(EXIT_IO, "out of memory");
+}
+
+/* The last frame of the scene's file; its keys go into the header. */
+static void read_scene(const struct settings *s, struct bed *b,
+                       struct bed_header *h, const char **name) {
+  FILE *in = input_open(s->scene_file, name);
+  struct bed_reader *reader = bed_reader_open(in, *name, s->allow_partial);
+  check_memory(reader ? GSL_SUCCESS : GSL_ENOMEM);
+  struct bed frame;
+  int status;
+  while ((status = bed_reader_next(reader, &frame)) == GSL_SUCCESS) {
+    bed_free(b);
+    *b = frame;
+  }
+  check_memory(status);
+  if (status != GSL_EOF)
+    die(EXIT_INPUT, "%s", bed_reader_error(reader));
+  const struct bed_header *keys = bed_reader_header(reader);
+  for (size_t k = 0; k < keys->count; k++)
+    check_memory(bed_header_add(h, keys->at[k].name, keys->at[k].value));
+  bed_reader_close(reader);
+  if (in != stdin)
+    fclose(in);
+}
+
+static void apply_header(struct option_spec *options,
+                         const struct bed_header *h, const char *name) {
+  for (size_t k = 0; k < h->count; k++) {
+    struct option_spec *o = option_find(options, h->at[k].name);
+    if (!o || !o->parameter || o->given)
+      continue;
+    const char *want = option_set(o, h->at[k].value);
+    if (want)
+      die(EXIT_INPUT, "%s: %s=%s: expected %s", name, o->name, h->at[k].value,
+          want);
+  }
+}
+
+static void check_walls(const struct scene *scene, const struct bed *b,
+                        const char *name) {
+  for (size_t i = 0; i < b->n; i++)
+    for (size_t k = 0; k < scene->walls_count; k++) {
+      const double *x = b->x + 3 * i;
+      if (!(wall_distance(&scene->walls[k], x) > 0))
+        die(EXIT_INPUT,
+            "%s: sphere %ld at (%g, %g, %g) has its centre outside wall %zu",
+            name, b->id[i], x[0], x[1], x[2], k + 1);
+    }
+}
+
+static void check_overlaps(const struct bed *b, const char *name) {
+  struct neighbors near = {0};
+  const int status = neighbors_find(&near, b->n, b->x, 3, b->r, 0);
+  check_memory(status);
+  if (status != GSL_SUCCESS)
+    die(EXIT_INPUT, "%s: a coordinate is not finite", name);
+  for (size_t p = 0; p < near.count; p++) {
+    const size_t i = near.i[p], j = near.j[p];
+    double u[3];
+    vec3_sub(b->x + 3 * i, b->x + 3 * j, u);
+    const double d = vec3_norm(u), touch = b->r[i] + b->r[j];
+    if (d < closest * touch)
+      die(EXIT_INPUT,
+          "%s: spheres %ld and %ld overlap: centres %g m apart, expected at "
+          "least %g m",
+          name, b->id[i], b->id[j], d, closest * touch);
+  }
+  neighbors_free(&near);
+}
+
+/* Parameters as they now stand, then what a file had and we do not know. */
+static void write_header(const struct settings *s,
+                         const struct option_spec *options,
+                         struct bed_header *h) {
+  char text[256];
+  bed_header_remove(h, "wall");
+  bed_header_remove(h, "status");
+  check_memory(bed_header_set(h, "format", "bed-1"));
+  check_memory(bed_header_set(h, "program", "settle"));
+  check_memory(bed_header_set(h, "version", DEM_VERSION));
+  for (const struct option_spec *o = options; o->name; o++) {
+    if (!o->parameter || o->each)
+      continue;
+    option_text(o, text, sizeof text);
+    check_memory(bed_header_set(h, o->name, text));
+  }
+  for (size_t k = 0; k < s->scene.walls_count; k++) {
+    const double *p = s->scene.walls[k].point, *n = s->scene.walls[k].normal;
+    snprintf(text, sizeof text, "%.17g %.17g %.17g %.17g %.17g %.17g", p[0],
+             p[1], p[2], n[0], n[1], n[2]);
+    check_memory(bed_header_add(h, "wall", text));
+  }
+}
+
+static void set_gravity(struct settings *s) {
+  const struct option_list *g = &s->gravity;
+  if (g->count == 2)
+    die(EXIT_USAGE, "--gravity: expected one number or three");
+  for (int k = 0; k < 3; k++)
+    s->scene.gravity[k] = g->count == 3 ? g->at[k] : 0;
+  if (g->count == 1)
+    s->scene.gravity[2] = -g->at[0];
+}
+
+void start_make(struct settings *s, struct option_spec *options,
+                struct bed *b, struct bed_header *header) {
+  const char *name = "start";
+  const bool own_walls = option_find(options, "wall")->given;
+  if (s->scene_file) {
+    read_scene(s, b, header, &name);
+    apply_header(options, header, name);
+  }
+  s->scene.model = !strcmp(s->model, "basic")      ? SCENE_BASIC
+                   : !strcmp(s->model, "friction") ? SCENE_FRICTION
+                                                   : SCENE_ROTATION;
+  set_gravity(s);
+  const char *wrong = scene_check(&s->scene);
+  if (wrong)
+    die(s->scene_file ? EXIT_INPUT : EXIT_USAGE, "%s", wrong);
+  if (!s->scene_file) {
+    s->fill.base[0] = s->base.at[0];
+    s->fill.base[1] = s->base.at[1];
+    if (!(s->fill.base[0] > 0 && s->fill.base[1] > 0))
+      die(EXIT_USAGE, "--base: expected two numbers above 0");
+    const int status = fill_grid(&s->fill, b);
+    check_memory(status);
+    if (status != GSL_SUCCESS)
+      die(EXIT_USAGE, "--base %g,%g: not one sphere of radius %g fits",
+          s->fill.base[0], s->fill.base[1], s->fill.radius);
+    if (!own_walls)
+      check_memory(
+          scene_add_box(&s->scene, s->fill.base[0], s->fill.base[1]));
+  }
+  check_walls(&s->scene, b, name);
+  check_overlaps(b, name);
+  write_header(s, options, header);
+}
