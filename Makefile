@@ -8,8 +8,9 @@ CC ?= gcc
 CFLAGS ?= -O3 -g
 WARNINGS := -Wall -Wextra
 INCLUDES := -Icommon -Ianalyze -Isettle -Itests
-GSL_CFLAGS := $(shell gsl-config --cflags 2>/dev/null)
-GSL_LIBS := $(shell gsl-config --libs 2>/dev/null || echo -lgsl -lgslcblas -lm)
+# GSL elsewhere than the compiler looks: GSL_CFLAGS=-I... GSL_LIBS='-L... ...'
+GSL_CFLAGS ?=
+GSL_LIBS ?= -lgsl -lgslcblas -lm
 OPENMP ?= -fopenmp
 ALL_CFLAGS = -std=c11 $(WARNINGS) $(INCLUDES) $(GSL_CFLAGS) $(OPENMP) $(CFLAGS)
 B := build
@@ -67,3 +68,48 @@ $(B)/analyze: $(patsubst %.c,$(O)/%.o,$(wildcard analyze/*.c)) $(LIBRARY)
 	$(LINK)
 
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
+
+# Tests: every tests/test_*.c is a program, every tests/test_*.sh a script; each
+# ends with a line "N passed, N failed".
+TEST_PROGRAMS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c))
+TEST_SCRIPTS := $(wildcard tests/test_*.sh)
+$(B)/tests/%: $(O)/tests/%.o $(LIBRARY)
+	@mkdir -p $(@D)
+	$(LINK)
+.PRECIOUS: $(O)/tests/%.o
+
+check: all $(TEST_PROGRAMS) ## run the tests (minutes)
+	@B=$(B) tests/run.sh $(TEST_PROGRAMS) $(TEST_SCRIPTS)
+
+DEBIAN_PACKAGES := gcc make libgsl-dev gnuplot-nox fonts-dejavu-core
+deps: ## install the Debian packages (as root, or with sudo)
+	@if command -v gnuplot gsl-config >/dev/null 2>&1 && \
+	  [ "$$(command -v gnuplot gsl-config | wc -l)" = 2 ]; then \
+	  echo "GSL and gnuplot are installed"; \
+	else \
+	  sudo=; [ "$$(id -u)" = 0 ] || sudo=sudo; \
+	  $$sudo apt-get update && \
+	  $$sudo apt-get install -y --no-install-recommends $(DEBIAN_PACKAGES); \
+	fi
+
+demo: all ## settle 200 spheres, print the packing fraction, draw the bed
+	$(B)/settle --seed 1 > $(B)/demo.tsv.partial
+	@mv $(B)/demo.tsv.partial $(B)/demo.tsv
+	$(B)/analyze $(B)/demo.tsv
+	gnuplot -c plots/bed.gp $(B)/demo.tsv $(B)/demo.png
+	@echo "the bed: $(B)/demo.tsv, its picture: $(B)/demo.png"
+
+install: all ## copy the programs to PREFIX/bin
+	install -d $(DESTDIR)$(PREFIX)/bin
+	install $(B)/bounce $(B)/settle $(B)/analyze $(DESTDIR)$(PREFIX)/bin
+
+clean: ## remove everything that was made
+	rm -rf $(B)
+
+help: ## this list
+	@sed -n 's/^\([a-zA-Z0-9.-]*\):.*## \(.*\)/\1\t\2/p' $(MAKEFILE_LIST) | \
+	  expand -t 16
+
+include plots/figures.mk
+
+.PHONY: all check deps demo install clean help

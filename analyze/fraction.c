@@ -18,8 +18,8 @@ int verb_fraction(int argc, char **argv) {
       {"sampled", OPTION_SIZE, &sampled, 0, 4096, NULL, "0: none",
        "count N^3 midpoints as well", false, false, NULL, NULL},
       {"allow-partial", OPTION_FLAG, &allow_partial, 0, 0, NULL, "",
-       "take a file that is cut short or marked as failed", false, false,
-       NULL, NULL},
+       "take a file that is cut short or marked as failed", false, false, NULL,
+       NULL},
       {0}};
   const struct program program = {
       .name = "analyze",
@@ -43,8 +43,8 @@ int verb_fraction(int argc, char **argv) {
     double united, sampled_sum, sampled_union;
     if (volume_union(bed.n, bed.x, bed.r, b, &united) != GSL_SUCCESS)
       die(EXIT_IO, "t=%g: out of memory", bed.t);
-    if (sampled && volume_sampled(bed.n, bed.x, bed.r, b, sampled,
-                                  &sampled_sum, &sampled_union) != GSL_SUCCESS)
+    if (sampled && volume_sampled(bed.n, bed.x, bed.r, b, sampled, &sampled_sum,
+                                  &sampled_union) != GSL_SUCCESS)
       die(EXIT_IO, "t=%g: out of memory", bed.t);
     if (first)
       printf("t\tsum\tunion%s\n",

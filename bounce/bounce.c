@@ -37,8 +37,7 @@ static int jacobian(double t, const double y[], double *dfdy, double dfdt[],
   dfdy[0] = 0;
   dfdy[1] = 1;
   dfdy[2] = -c->kappa * contact_normal(c, y[0], y[1]);
-  dfdy[3] =
-      -contact_repulsion(c, y[0]) * 0.5 * (1 - e2) * c->psi * sech * sech;
+  dfdy[3] = -contact_repulsion(c, y[0]) * 0.5 * (1 - e2) * c->psi * sech * sech;
   dfdt[0] = dfdt[1] = 0;
   return GSL_SUCCESS;
 }
@@ -50,8 +49,7 @@ static double step_limit(const double y[], const double dydt[], void *params) {
 }
 
 static double energy(const struct drop *d, const double y[]) {
-  return 0.5 * y[1] * y[1] + d->gravity * y[0] +
-         contact_energy(&d->law, y[0]);
+  return 0.5 * y[1] * y[1] + d->gravity * y[0] + contact_energy(&d->law, y[0]);
 }
 
 static void step_or_die(struct integrator *it) {
@@ -163,15 +161,15 @@ int main(int argc, char **argv) {
        "repulsion at touch F0", true, false, NULL, NULL},
       {"psi", OPTION_DOUBLE, &law->psi, DBL_MIN, OPTION_MANY, NULL, "s/m",
        "dissipation focusing", true, false, NULL, NULL},
-      {"gravity", OPTION_DOUBLE, &gravity, DBL_MIN, OPTION_MANY, NULL,
-       "m/s^2", "gravity", true, false, NULL, NULL},
+      {"gravity", OPTION_DOUBLE, &gravity, DBL_MIN, OPTION_MANY, NULL, "m/s^2",
+       "gravity", true, false, NULL, NULL},
       {"time", OPTION_DOUBLE, &time, DBL_MIN, OPTION_MANY, NULL, "s", "end",
        true, false, NULL, NULL},
       {"samples", OPTION_SIZE, &samples, 1, 1e9, NULL, "",
        "rows, evenly in time", false, false, NULL, NULL},
       {"rebound", OPTION_FLAG, &rebound, 0, 0, NULL, "",
-       "one row instead: the first apex after the rebound", false, false,
-       NULL, NULL},
+       "one row instead: the first apex after the rebound", false, false, NULL,
+       NULL},
       INTEGRATION_OPTIONS(integrate, travel),
       {0}};
   const struct program program = {
@@ -191,15 +189,15 @@ int main(int argc, char **argv) {
   struct drop drop = {*law, gravity, travel / law->kappa};
   /* as for settle: gaps in 1/kappa, speeds in m/s */
   const double scale[2] = {1 / law->kappa, 1};
-  const struct integrate_problem problem = {
-      .system = {.function = rhs,
-                 .jacobian = jacobian,
-                 .dimension = 2,
-                 .params = &drop},
-      .scale = scale,
-      .row = 2,
-      .positions = 1,
-      .step_limit = travel > 0 ? step_limit : NULL};
+  const struct integrate_problem problem = {.system = {.function = rhs,
+                                                       .jacobian = jacobian,
+                                                       .dimension = 2,
+                                                       .params = &drop},
+                                            .scale = scale,
+                                            .row = 2,
+                                            .positions = 1,
+                                            .step_limit =
+                                                travel > 0 ? step_limit : NULL};
   struct integrator *it;
   const int status = integrate_alloc(&it, &integrate, &problem, 0,
                                      (const double[]){height, 0});

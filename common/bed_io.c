@@ -319,8 +319,8 @@ int bed_reader_next(struct bed_reader *r, struct bed *b) {
     } else if (*line == '#') {
       status = read_key(r, line);
       r->complete = bed_header_get(&r->header, "status") != NULL;
-    } else if (strchr("0123456789+-.", *line) ||
-               !strncmp(line, "nan", 3) || !strncmp(line, "inf", 3)) {
+    } else if (strchr("0123456789+-.", *line) || !strncmp(line, "nan", 3) ||
+               !strncmp(line, "inf", 3)) {
       status = read_row(r, line);
     } else {
       status = read_column_names(r, line);
@@ -333,8 +333,8 @@ int bed_reader_next(struct bed_reader *r, struct bed *b) {
 
 /* Writer */
 
-void bed_write_frame(FILE *out, const struct bed_header *h,
-                     const struct bed *b, bool spin) {
+void bed_write_frame(FILE *out, const struct bed_header *h, const struct bed *b,
+                     bool spin) {
   for (size_t k = 0; k < h->count; k++)
     if (strcmp(h->at[k].name, "t") && strcmp(h->at[k].name, "status"))
       fprintf(out, "# %s=%s\n", h->at[k].name, h->at[k].value);
@@ -345,8 +345,7 @@ void bed_write_frame(FILE *out, const struct bed_header *h,
   fputc('\n', out);
   for (size_t i = 0; i < b->n; i++) {
     const double *x = b->x + 3 * i, *v = b->v + 3 * i, *w = b->w + 3 * i;
-    fprintf(out,
-            "%ld\t%.17g\t%.17g\t%.17g\t%.17g\t%.17g\t%.17g\t%.17g\t%.17g",
+    fprintf(out, "%ld\t%.17g\t%.17g\t%.17g\t%.17g\t%.17g\t%.17g\t%.17g\t%.17g",
             b->id[i], x[0], x[1], x[2], b->r[i], b->m[i], v[0], v[1], v[2]);
     if (spin)
       fprintf(out, "\t%.17g\t%.17g\t%.17g", w[0], w[1], w[2]);

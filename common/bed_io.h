@@ -14,7 +14,7 @@ struct bed_header {
   size_t count, size;
   struct bed_key {
     char *name, *value;
-  } *at;
+  } * at;
 };
 
 /* Appends, or replaces the first key of that name. GSL_ENOMEM. */
@@ -42,8 +42,8 @@ void bed_reader_close(struct bed_reader *r); /* leaves the stream open */
 /* Writes a frame: its header's keys, t, columns and rows; spin adds the
    columns of angular velocity. Separate frames with bed_write_gap and end the
    file with bed_write_status. Errors stay in ferror(out). */
-void bed_write_frame(FILE *out, const struct bed_header *h,
-                     const struct bed *b, bool spin);
+void bed_write_frame(FILE *out, const struct bed_header *h, const struct bed *b,
+                     bool spin);
 void bed_write_gap(FILE *out);
 void bed_write_status(FILE *out, const char *status);
 

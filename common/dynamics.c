@@ -347,8 +347,7 @@ double dynamics_kinetic(const struct dynamics *d, const double y[]) {
     const double *row = y + i * d->k.stride;
     double twice = vec3_dot(row + 3, row + 3);
     if (d->k.has.rotation)
-      twice +=
-          0.4 * d->radius[i] * d->radius[i] * vec3_dot(row + 6, row + 6);
+      twice += 0.4 * d->radius[i] * d->radius[i] * vec3_dot(row + 6, row + 6);
     sum += 0.5 * d->mass[i] * twice;
   }
   return sum;
@@ -373,8 +372,7 @@ double dynamics_potential(struct dynamics *d, const double y[]) {
   for (size_t p = 0; p < d->k.wall_contacts; p++) {
     const size_t i = d->wall_sphere[p];
     const double gap =
-        wall_distance(&d->walls[d->wall_id[p]], y + i * stride) -
-        d->radius[i];
+        wall_distance(&d->walls[d->wall_id[p]], y + i * stride) - d->radius[i];
     if (gap <= law->lmax)
       sum += contact_energy(law, gap);
   }

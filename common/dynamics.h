@@ -40,8 +40,7 @@ const char *dynamics_kernel(const struct dynamics *d); /* instruction set */
 /* Between a bed and a state vector of dynamics_dimension doubles. unpack
    leaves the spins of a bed without rotation as they are. */
 void dynamics_pack(const struct dynamics *d, const struct bed *b, double y[]);
-void dynamics_unpack(const struct dynamics *d, const double y[],
-                     struct bed *b);
+void dynamics_unpack(const struct dynamics *d, const double y[], struct bed *b);
 
 /* dydt = f(y), for gsl_odeiv2_system with params a struct dynamics. Returns
    GSL_SUCCESS, GSL_EBADFUNC where the result is not finite, GSL_ENOMEM. */

@@ -15,7 +15,8 @@ const char *const integrate_controls[] = {"paper", "standard", NULL};
 
 struct integrator {
   gsl_odeiv2_system system; /* first: the multistep methods point to it */
-  gsl_odeiv2_driver driver; /* of GSL's struct, so that msbdf finds its control */
+  gsl_odeiv2_driver
+      driver; /* of GSL's struct, so that msbdf finds its control */
   gsl_odeiv2_step *step;
   gsl_odeiv2_control *control; /* NULL: fixed step */
   gsl_odeiv2_evolve *evolve;
@@ -90,10 +91,8 @@ int integrate_alloc(struct integrator **out, const struct integrate_options *o,
     integrate_free(it);
     return GSL_ENOMEM;
   }
-  it->driver = (gsl_odeiv2_driver){.sys = &it->system,
-                                   .s = it->step,
-                                   .c = it->control,
-                                   .e = it->evolve};
+  it->driver = (gsl_odeiv2_driver){
+      .sys = &it->system, .s = it->step, .c = it->control, .e = it->evolve};
   gsl_odeiv2_step_set_driver(it->step, &it->driver);
   *out = it;
   return GSL_SUCCESS;
@@ -110,8 +109,8 @@ static int attempt(struct integrator *it, double *h) {
     status = gsl_odeiv2_evolve_apply(e, it->control, it->step, &it->system,
                                      &it->t, GSL_DBL_MAX, h, it->y);
   else
-    status = gsl_odeiv2_evolve_apply_fixed_step(
-        e, NULL, it->step, &it->system, &it->t, *h, it->y);
+    status = gsl_odeiv2_evolve_apply_fixed_step(e, NULL, it->step, &it->system,
+                                                &it->t, *h, it->y);
   it->counts.rejected += e->failed_steps - failed;
   if (status != GSL_SUCCESS) {
     if (status == GSL_FAILURE && e->count > 0) /* y holds the rejected trial */
@@ -134,8 +133,7 @@ int integrate_step(struct integrator *it) {
       if (status != GSL_SUCCESS)
         return status;
     }
-    h = GSL_MIN(h,
-                it->step_limit(it->y, e->dydt_out, it->system.params));
+    h = GSL_MIN(h, it->step_limit(it->y, e->dydt_out, it->system.params));
   }
   const double start = it->t;
   /* Below this a step no longer moves t. */

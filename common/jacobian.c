@@ -81,9 +81,9 @@ static void differentiate(const struct contact_law *c,
   if (v > 0)
     for (int i = 0; i < 3; i++)
       unit[i] = t[i] / v;
-  const double slip_v = v < vmin ? 3 / (vmin * vmin) -
-                                       4 * v / (vmin * vmin * vmin)
-                                 : -1 / (v * v);
+  const double slip_v = v < vmin
+                            ? 3 / (vmin * vmin) - 4 * v / (vmin * vmin * vmin)
+                            : -1 / (v * v);
   matrix force_t = {{0}};
   for (int i = 0; i < 3; i++)
     force_t[i][i] = -c->friction * f * slip;

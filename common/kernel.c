@@ -62,8 +62,8 @@ INLINE void load_pairs(const struct kernel_data *k, const double *y,
   const double touching = -2 * k->radius[0];
 #pragma omp simd
   for (size_t c = 0; c < count; c++) {
-    const double d = sqrt(b->nx[c] * b->nx[c] + b->ny[c] * b->ny[c] +
-                          b->nz[c] * b->nz[c]);
+    const double d =
+        sqrt(b->nx[c] * b->nx[c] + b->ny[c] * b->ny[c] + b->nz[c] * b->nz[c]);
     const double inverse = 1 / d;
     b->gap[c] = d + (has.uniform ? touching : b->gap[c]);
     b->nx[c] *= inverse;
@@ -126,7 +126,7 @@ INLINE void evaluate(const struct contact_law *law, size_t count,
       const double t = sqrt(tx * tx + ty * ty + tz * tz);
       const double s = t * inverse_vmin;
       const double slip =
-          t < vmin ? (3 - 2 * s) * s * inverse_vmin : 1 / fmax(t, vmin);
+          t < vmin ? (3 - 2 * s) * s * inverse_vmin : 1 / (t < vmin ? vmin : t);
       const double g = -phi * f * slip;
       tx *= g;
       ty *= g;

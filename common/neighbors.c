@@ -107,8 +107,7 @@ static int append_partners(struct neighbors *nb, const struct grid *g,
         if (j <= i)
           continue;
         const double *xj = x + j * stride;
-        const double dx = xi[0] - xj[0], dy = xi[1] - xj[1],
-                     dz = xi[2] - xj[2];
+        const double dx = xi[0] - xj[0], dy = xi[1] - xj[1], dz = xi[2] - xj[2];
         const double most = radius[i] + radius[j] + reach;
         if (most >= 0 && dx * dx + dy * dy + dz * dz <= most * most)
           nb->j[nb->count++] = (uint32_t)j;
@@ -148,8 +147,7 @@ int neighbors_find(struct neighbors *nb, size_t n, const double *x,
 
   /* scratch: start of each cell (cells + 1), members and cells of spheres */
   const size_t cells = g.dim[0] * g.dim[1] * g.dim[2];
-  const size_t bytes =
-      (cells + 2) * sizeof(size_t) + 2 * n * sizeof(uint32_t);
+  const size_t bytes = (cells + 2) * sizeof(size_t) + 2 * n * sizeof(uint32_t);
   if (bytes > nb->grid_size) {
     void *grid = realloc(nb->grid, bytes);
     if (!grid)

@@ -9,11 +9,11 @@
    pairs as the first partner are first[i] <= p < first[i+1]. Zero-initialise;
    neighbors_find grows the arrays and reuses them. */
 struct neighbors {
-  size_t count, size;   /* pairs held, pairs there is room for */
-  uint32_t *i, *j;      /* count */
-  size_t *first;        /* spheres + 1 */
+  size_t count, size; /* pairs held, pairs there is room for */
+  uint32_t *i, *j;    /* count */
+  size_t *first;      /* spheres + 1 */
   size_t spheres_size;
-  void *grid;           /* scratch of the cell grid */
+  void *grid; /* scratch of the cell grid */
   size_t grid_size;
 };
 

@@ -247,11 +247,11 @@ int options_parse(const struct program *p, int argc, char **argv) {
   if (!table)
     die(EXIT_IO, "out of memory");
   for (size_t i = 0; i < count; i++)
-    table[i] = (struct option){
-        .name = p->options[i].name,
-        .has_arg = p->options[i].type == OPTION_FLAG ? no_argument
-                                                     : required_argument,
-        .val = (int)i};
+    table[i] = (struct option){.name = p->options[i].name,
+                               .has_arg = p->options[i].type == OPTION_FLAG
+                                              ? no_argument
+                                              : required_argument,
+                               .val = (int)i};
   table[count] = (struct option){.name = "help", .val = HELP};
   table[count + 1] = (struct option){.name = "version", .val = VERSION};
   argv[0] = (char *)p->name; /* getopt's messages begin as ours do */

@@ -46,8 +46,7 @@ int runge_kutta_apply(void *state, size_t dim, double t, double h, double y[],
   const double *a = tab->a;
   for (size_t j = 1; j < tab->stages && status == GSL_SUCCESS; a += j++) {
     combine(a, j, h, k, dim, start, stage);
-    status =
-        GSL_ODEIV_FN_EVAL(sys, t + tab->c[j] * h, stage, k + j * dim);
+    status = GSL_ODEIV_FN_EVAL(sys, t + tab->c[j] * h, stage, k + j * dim);
   }
   if (status != GSL_SUCCESS)
     return status;

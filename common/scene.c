@@ -56,12 +56,6 @@ int scene_add_box(struct scene *s, double a, double b) {
   return GSL_SUCCESS;
 }
 
-double wall_distance(const struct wall *w, const double x[3]) {
-  double d[3];
-  vec3_sub(w->point, x, d);
-  return vec3_dot(d, w->normal);
-}
-
 const char *scene_check(const struct scene *s) {
   const struct contact_law *c = &s->law;
   if (!(c->f0 > 0 && gsl_finite(c->f0)))

@@ -41,7 +41,11 @@ int scene_add_wall(struct scene *s, const double point[3],
 int scene_add_box(struct scene *s, double a, double b);
 
 /* Distance of x from wall k's plane, positive inside (m). */
-double wall_distance(const struct wall *w, const double x[3]);
+static inline double wall_distance(const struct wall *w, const double x[3]) {
+  double d[3];
+  vec3_sub(w->point, x, d);
+  return vec3_dot(d, w->normal);
+}
 
 /* NULL if the parameters can be computed with, else what is wrong, a static
    string. */

@@ -22,8 +22,7 @@ static inline double vec3_norm(const double a[3]) {
 }
 
 /* c = a - b */
-static inline void vec3_sub(const double a[3], const double b[3],
-                            double c[3]) {
+static inline void vec3_sub(const double a[3], const double b[3], double c[3]) {
   for (int k = 0; k < 3; k++)
     c[k] = a[k] - b[k];
 }

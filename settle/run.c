@@ -21,7 +21,7 @@ struct run {
   struct bed *bed;
   struct dynamics *dynamics;
   struct integrator *integrator;
-  double *y; /* interpolated state */
+  double *y;           /* interpolated state */
   double start, moved; /* time of the start, and when last not at rest */
   size_t frames;       /* written */
   FILE *log;
@@ -85,8 +85,7 @@ static double frame_time(const struct run *r, size_t k) {
   const struct settings *s = r->set;
   if (s->frames == 1)
     return s->time;
-  return r->start +
-         (s->time - r->start) * (double)k / (double)(s->frames - 1);
+  return r->start + (s->time - r->start) * (double)k / (double)(s->frames - 1);
 }
 
 /* Every frame that is due by now. */
@@ -107,8 +106,7 @@ static void write_log(struct run *r) {
           integrate_time(r->integrator), integrate_last_step(r->integrator),
           integrate_counts(r->integrator).accepted,
           dynamics_counts(r->dynamics).evaluations,
-          dynamics_kinetic(r->dynamics, y),
-          dynamics_potential(r->dynamics, y));
+          dynamics_kinetic(r->dynamics, y), dynamics_potential(r->dynamics, y));
 }
 
 static void show_progress(struct run *r) {
@@ -191,8 +189,7 @@ static int integrate_all(struct run *r, char *reason, size_t size) {
   snprintf(reason, size, "limit: not at rest at t=%g", s->time);
   warn("not at rest at t=%g: surfaces still move at %.3g m/s, expected below "
        "vmin = %g m/s",
-       s->time,
-       dynamics_fastest(r->dynamics, integrate_state(r->integrator)),
+       s->time, dynamics_fastest(r->dynamics, integrate_state(r->integrator)),
        s->scene.law.vmin);
   return EXIT_LIMIT;
 }
@@ -217,8 +214,7 @@ int run(const struct settings *s, struct bed *b,
     die(EXIT_IO, "out of memory");
   dynamics_pack(r.dynamics, b, r.y);
   fill_scale(&r, scale);
-  struct limited limited = {r.dynamics,
-                            s->travel / s->scene.law.kappa};
+  struct limited limited = {r.dynamics, s->travel / s->scene.law.kappa};
   const struct integrate_problem problem = {
       .system = {.function = rhs,
                  .jacobian = jacobian,
@@ -228,11 +224,11 @@ int run(const struct settings *s, struct bed *b,
       .row = dynamics_stride(r.dynamics),
       .positions = 3,
       .step_limit = s->travel > 0 ? step_limit : NULL};
-  const int status = integrate_alloc(&r.integrator, &s->integrate, &problem,
-                                     b->t, r.y);
+  const int status =
+      integrate_alloc(&r.integrator, &s->integrate, &problem, b->t, r.y);
   if (status != GSL_SUCCESS)
-    die(status == GSL_EINVAL ? EXIT_USAGE : EXIT_IO,
-        "method %s: %s", s->integrate.method, gsl_strerror(status));
+    die(status == GSL_EINVAL ? EXIT_USAGE : EXIT_IO, "method %s: %s",
+        s->integrate.method, gsl_strerror(status));
   struct output_file log;
   if (s->log) {
     output_open(&log, s->log);

@@ -120,8 +120,8 @@ static void set_gravity(struct settings *s) {
     s->scene.gravity[2] = -g->at[0];
 }
 
-void start_make(struct settings *s, struct option_spec *options,
-                struct bed *b, struct bed_header *header) {
+void start_make(struct settings *s, struct option_spec *options, struct bed *b,
+                struct bed_header *header) {
   const char *name = "start";
   const bool own_walls = option_find(options, "wall")->given;
   if (s->scene_file) {
@@ -146,8 +146,7 @@ void start_make(struct settings *s, struct option_spec *options,
       die(EXIT_USAGE, "--base %g,%g: not one sphere of radius %g fits",
           s->fill.base[0], s->fill.base[1], s->fill.radius);
     if (!own_walls)
-      check_memory(
-          scene_add_box(&s->scene, s->fill.base[0], s->fill.base[1]));
+      check_memory(scene_add_box(&s->scene, s->fill.base[0], s->fill.base[1]));
   }
   check_walls(&s->scene, b, name);
   check_overlaps(b, name);

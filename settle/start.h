@@ -9,7 +9,7 @@
    command line did not, walls are the command line's, else the file's, else
    the box. header: the parameters as the output's header will have them. Exits
    with one line where the start cannot be used. */
-void start_make(struct settings *s, struct option_spec *options,
-                struct bed *b, struct bed_header *header);
+void start_make(struct settings *s, struct option_spec *options, struct bed *b,
+                struct bed_header *header);
 
 #endif
