@@ -27,7 +27,7 @@ KERNEL_CFLAGS += -fveclib=libmvec -Wno-pass-failed
 endif
 ifeq ($(ARCH),x86_64)
 KERNELS := x86_64 x86_64_v3 x86_64_v4
-MARCH_x86_64 := -march=x86-64
+MARCH_x86_64 := -march=x86-64 -Wno-psabi
 MARCH_x86_64_v3 := -march=x86-64-v3
 MARCH_x86_64_v4 := -march=x86-64-v4 -mprefer-vector-width=512
 LIBMVEC := -lmvec

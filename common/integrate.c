@@ -8,9 +8,10 @@
 #include "control.h"
 #include "dopri5.h"
 #include "merson.h"
+#include "rkc.h"
 
 const char *const integrate_methods[] = {"merson", "dopri5", "rkf45", "rkck",
-                                         "rk8pd",  "msbdf",  NULL};
+                                         "rk8pd",  "rkc",    "msbdf", NULL};
 const char *const integrate_controls[] = {"paper", "standard", NULL};
 
 struct integrator {
@@ -36,6 +37,7 @@ static const gsl_odeiv2_step_type *find_method(const char *name) {
                  {"rkf45", gsl_odeiv2_step_rkf45},
                  {"rkck", gsl_odeiv2_step_rkck},
                  {"rk8pd", gsl_odeiv2_step_rk8pd},
+                 {"rkc", rkc},
                  {"msbdf", gsl_odeiv2_step_msbdf}};
   for (size_t i = 0; i < sizeof methods / sizeof *methods; i++)
     if (!strcmp(name, methods[i].name))

@@ -4,6 +4,7 @@
 #include "kernel.h"
 
 #include <math.h>
+#include <string.h>
 
 #ifndef KERNEL_ISA
 #define KERNEL_ISA native
@@ -35,40 +36,119 @@ struct block {
   double tx[BLOCK], ty[BLOCK], tz[BLOCK]; /* n x friction force */
 };
 
+/* Where registers hold four doubles. */
+#ifdef __AVX2__
+enum { WIDE = 1 };
+#else
+enum { WIDE = 0 };
+#endif
+
+/* Rows of four doubles are turned into columns and back four at a time: loads
+   and shuffles, no gather instructions, which cost more on today's machines. */
+typedef double vec4 __attribute__((vector_size(32)));
+
+INLINE vec4 vec4_load(const double *p) {
+  vec4 v;
+  memcpy(&v, p, sizeof v);
+  return v;
+}
+
+INLINE void vec4_store(vec4 v, double *p) {
+  memcpy(p, &v, sizeof v);
+}
+
+INLINE void transpose(vec4 r[4]) {
+  const vec4 a = __builtin_shufflevector(r[0], r[1], 0, 4, 2, 6);
+  const vec4 b = __builtin_shufflevector(r[0], r[1], 1, 5, 3, 7);
+  const vec4 c = __builtin_shufflevector(r[2], r[3], 0, 4, 2, 6);
+  const vec4 d = __builtin_shufflevector(r[2], r[3], 1, 5, 3, 7);
+  r[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5);
+  r[1] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
+  r[2] = __builtin_shufflevector(a, c, 2, 3, 6, 7);
+  r[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
+}
+
+/* One pair's differences of positions and velocities and its sum of r w. */
+INLINE void load_pair(const struct kernel_data *k, const double *y, size_t pair,
+                      size_t c, struct block *b,
+                      const struct kernel_features has) {
+  const size_t stride = has.rotation ? 9 : 6;
+  const size_t i = k->i[pair], j = k->j[pair];
+  const double *p = y + i * stride, *q = y + j * stride;
+  const double ri = has.uniform ? 1 : k->radius[i],
+               rj = has.uniform ? 1 : k->radius[j];
+  b->nx[c] = p[0] - q[0];
+  b->ny[c] = p[1] - q[1];
+  b->nz[c] = p[2] - q[2];
+  b->vx[c] = p[3] - q[3];
+  b->vy[c] = p[4] - q[4];
+  b->vz[c] = p[5] - q[5];
+  if (has.rotation) {
+    b->sx[c] = ri * p[6] + rj * q[6];
+    b->sy[c] = ri * p[7] + rj * q[7];
+    b->sz[c] = ri * p[8] + rj * q[8];
+  }
+  if (!has.uniform)
+    b->gap[c] = -(ri + rj);
+}
+
+/* The same for four pairs of equal spheres. */
+INLINE void load_four(const struct kernel_data *k, const double *y, size_t pair,
+                      size_t c, struct block *b,
+                      const struct kernel_features has) {
+  const size_t stride = has.rotation ? 9 : 6;
+  const vec4 plus = {-1, -1, 1, 1}; /* velocities less, spins and */
+  vec4 u[4], w[4];
+  for (int l = 0; l < 4; l++) {
+    const double *p = y + k->i[pair + l] * stride;
+    const double *q = y + k->j[pair + l] * stride;
+    u[l] = vec4_load(p) - vec4_load(q);
+    if (has.rotation) {
+      w[l] = vec4_load(p + 4) + plus * vec4_load(q + 4);
+      b->sz[c + l] = p[8] + q[8];
+    } else {
+      w[l] = vec4_load(p + 2) - vec4_load(q + 2);
+    }
+  }
+  transpose(u);
+  transpose(w);
+  vec4_store(u[0], b->nx + c);
+  vec4_store(u[1], b->ny + c);
+  vec4_store(u[2], b->nz + c);
+  vec4_store(u[3], b->vx + c);
+  vec4_store(w[has.rotation ? 0 : 2], b->vy + c);
+  vec4_store(w[has.rotation ? 1 : 3], b->vz + c);
+  if (has.rotation) {
+    vec4_store(w[2], b->sx + c);
+    vec4_store(w[3], b->sy + c);
+  }
+}
+
 /* (2.2): separation vectors, relative velocities and spins of pairs. */
 INLINE void load_pairs(const struct kernel_data *k, const double *y,
                        size_t from, size_t count, struct block *b,
                        const struct kernel_features has) {
-  const size_t stride = has.rotation ? 9 : 6;
-  for (size_t c = 0; c < count; c++) {
-    const size_t i = k->i[from + c], j = k->j[from + c];
-    const double *p = y + i * stride, *q = y + j * stride;
-    b->nx[c] = p[0] - q[0];
-    b->ny[c] = p[1] - q[1];
-    b->nz[c] = p[2] - q[2];
-    b->vx[c] = p[3] - q[3];
-    b->vy[c] = p[4] - q[4];
-    b->vz[c] = p[5] - q[5];
-    const double ri = k->radius[has.uniform ? 0 : i],
-                 rj = k->radius[has.uniform ? 0 : j];
-    if (has.rotation) {
-      b->sx[c] = ri * p[6] + rj * q[6];
-      b->sy[c] = ri * p[7] + rj * q[7];
-      b->sz[c] = ri * p[8] + rj * q[8];
-    }
-    if (!has.uniform)
-      b->gap[c] = -(ri + rj);
-  }
-  const double touching = -2 * k->radius[0];
+  size_t c = 0;
+  if (WIDE && has.uniform)
+    for (; c + 4 <= count; c += 4)
+      load_four(k, y, from + c, c, b, has);
+  for (; c < count; c++)
+    load_pair(k, y, from + c, c, b, has);
+  const double r = k->radius[0];
 #pragma omp simd
-  for (size_t c = 0; c < count; c++) {
+  for (size_t l = 0; l < count; l++) {
     const double d =
-        sqrt(b->nx[c] * b->nx[c] + b->ny[c] * b->ny[c] + b->nz[c] * b->nz[c]);
+        sqrt(b->nx[l] * b->nx[l] + b->ny[l] * b->ny[l] + b->nz[l] * b->nz[l]);
     const double inverse = 1 / d;
-    b->gap[c] = d + (has.uniform ? touching : b->gap[c]);
-    b->nx[c] *= inverse;
-    b->ny[c] *= inverse;
-    b->nz[c] *= inverse;
+    b->gap[l] = d + (has.uniform ? -2 * r : b->gap[l]);
+    b->nx[l] *= inverse;
+    b->ny[l] *= inverse;
+    b->nz[l] *= inverse;
+    if (has.rotation && has.uniform) {
+      b->sx[l] *= r;
+      b->sy[l] *= r;
+      b->sz[l] *= r;
+    }
   }
 }
 
@@ -149,14 +229,30 @@ INLINE void evaluate(const struct contact_law *law, size_t count,
 INLINE void store(const struct block *b, size_t count, double *row,
                   const struct kernel_features has) {
   const size_t width = has.rotation ? 8 : 4;
-  for (size_t c = 0; c < count; c++, row += width) {
-    row[0] = b->fx[c];
-    row[1] = b->fy[c];
-    row[2] = b->fz[c];
+  size_t c = 0;
+  for (; WIDE && c + 4 <= count; c += 4) {
+    vec4 f[4] = {vec4_load(b->fx + c), vec4_load(b->fy + c),
+                 vec4_load(b->fz + c)};
+    transpose(f);
+    for (size_t l = 0; l < 4; l++)
+      vec4_store(f[l], row + (c + l) * width);
     if (has.rotation) {
-      row[4] = b->tx[c];
-      row[5] = b->ty[c];
-      row[6] = b->tz[c];
+      vec4 t[4] = {vec4_load(b->tx + c), vec4_load(b->ty + c),
+                   vec4_load(b->tz + c)};
+      transpose(t);
+      for (size_t l = 0; l < 4; l++)
+        vec4_store(t[l], row + (c + l) * width + 4);
+    }
+  }
+  for (; c < count; c++) {
+    double *to = row + c * width;
+    to[0] = b->fx[c];
+    to[1] = b->fy[c];
+    to[2] = b->fz[c];
+    if (has.rotation) {
+      to[4] = b->tx[c];
+      to[5] = b->ty[c];
+      to[6] = b->tz[c];
     }
   }
 }
@@ -185,35 +281,38 @@ INLINE bool gather(const struct kernel_data *k, const double *y, double *dydt,
   const size_t stride = has.rotation ? 9 : 6, width = has.rotation ? 8 : 4;
   double checksum = 0;
   for (size_t i = from; i < to; i++) {
-    double sum[8] = {0};
+    vec4 f = {0}, t = {0};
     for (size_t q = k->second_first[i]; q < k->second_first[i + 1]; q++) {
       const double *row = k->rows + k->second[q] * width;
-      for (int c = 0; c < 4; c++)
-        sum[c] -= row[c];
+      f -= vec4_load(row);
       if (has.rotation)
-        for (int c = 4; c < 8; c++)
-          sum[c] += row[c];
+        t += vec4_load(row + 4);
     }
-    for (size_t p = k->first[i]; p < k->first[i + 1]; p++)
-      for (size_t c = 0; c < width; c++)
-        sum[c] += k->rows[p * width + c];
-    for (size_t p = k->wall_first[i]; p < k->wall_first[i + 1]; p++)
-      for (size_t c = 0; c < width; c++)
-        sum[c] += k->rows[(k->pairs + p) * width + c];
-
+    for (size_t p = k->first[i]; p < k->first[i + 1]; p++) {
+      const double *row = k->rows + p * width;
+      f += vec4_load(row);
+      if (has.rotation)
+        t += vec4_load(row + 4);
+    }
+    for (size_t p = k->wall_first[i]; p < k->wall_first[i + 1]; p++) {
+      const double *row = k->rows + (k->pairs + p) * width;
+      f += vec4_load(row);
+      if (has.rotation)
+        t += vec4_load(row + 4);
+    }
     const double *state = y + i * stride;
     double *rate = dydt + i * stride;
     const double inverse_mass = 1 / k->mass[i];
     for (int c = 0; c < 3; c++) {
       rate[c] = state[3 + c];
-      rate[3 + c] = k->gravity[c] + inverse_mass * sum[c];
+      rate[3 + c] = k->gravity[c] + inverse_mass * f[c];
       checksum += rate[c] + rate[3 + c];
     }
     if (has.rotation) {
       /* torque = -r n x f, I = 2 m r^2 / 5 */
       const double scale = -2.5 * inverse_mass / k->radius[i];
       for (int c = 0; c < 3; c++) {
-        rate[6 + c] = scale * sum[4 + c];
+        rate[6 + c] = scale * t[c];
         checksum += rate[6 + c];
       }
     }
