@@ -1,4 +1,4 @@
-/* The paper's step control as a gsl_odeiv2 control type. */
+/* Step controls of our own as gsl_odeiv2 control types. */
 #ifndef CONTROL_H
 #define CONTROL_H
 
@@ -11,5 +11,14 @@
    limited. Steps below 1e-9 s are accepted whatever their error. NULL without
    memory. Tested in tests/test_steppers.c. */
 gsl_odeiv2_control *control_paper_new(double delta);
+
+/* A step is accepted when the error estimate of every unknown i is below
+   abstol scale[i] + reltol |y[i]|. The next step is predicted from the last
+   two errors (Gustafsson, ACM Trans. Math. Softw. 17 (1991) 533), so that a
+   collision is met by steps that shrink ahead of it instead of by rejected
+   ones; not in the paper. order is that of the step type. scale, dim numbers,
+   is copied. NULL without memory. Tested in tests/test_steppers.c. */
+gsl_odeiv2_control *control_predictive_new(double abstol, double reltol,
+                                           const double *scale, size_t dim);
 
 #endif

@@ -12,7 +12,7 @@
 
 const char *const integrate_methods[] = {"merson", "dopri5", "rkf45", "rkck",
                                          "rk8pd",  "rkc",    "msbdf", NULL};
-const char *const integrate_controls[] = {"paper", "standard", NULL};
+const char *const integrate_controls[] = {"paper", "standard", "predictive", NULL};
 
 struct integrator {
   gsl_odeiv2_system system; /* first: the multistep methods point to it */
@@ -49,8 +49,10 @@ static gsl_odeiv2_control *make_control(const struct integrate_options *o,
                                         const double *scale, size_t dim) {
   if (!strcmp(o->control, "paper"))
     return control_paper_new(o->tol);
-  return gsl_odeiv2_control_scaled_new(o->abstol > 0 ? o->abstol : o->tol,
-                                       o->reltol, 1, 0, scale, dim);
+  const double abstol = o->abstol > 0 ? o->abstol : o->tol;
+  if (!strcmp(o->control, "predictive"))
+    return control_predictive_new(abstol, o->reltol, scale, dim);
+  return gsl_odeiv2_control_scaled_new(abstol, o->reltol, 1, 0, scale, dim);
 }
 
 void integrate_free(struct integrator *it) {

@@ -17,7 +17,7 @@ static const double safety = 1.2;
 
 /* More stages than this gain nothing on a shorter step and let rounding
    grow. */
-enum { MOST_STAGES = 400, FIRST_ITERATIONS = 50, NEXT_ITERATIONS = 2 };
+enum { MOST_STAGES = 400, FIRST_ITERATIONS = 50, NEXT_ITERATIONS = 3 };
 
 struct state {
   double radius; /* spectral radius, 0: unknown */
@@ -102,12 +102,12 @@ static int estimate_radius(struct state *s, double t, const double *y,
       for (size_t i = 0; i < s->dim; i++)
         s->work[i] = i % 2 ? 1 : -1;
   }
-  double last = 0, radius = 0;
+  double last = s->radius / safety, radius = 0;
   for (size_t k = 0; k < most; k++) {
     const int status = power_iterate(s, t, y, f, sys, &radius);
     if (status != GSL_SUCCESS)
       return status;
-    if (k && fabs(radius - last) <= 0.1 * radius)
+    if (last > 0 && fabs(radius - last) <= 0.25 * radius)
       break;
     last = radius;
   }
