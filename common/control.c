@@ -104,7 +104,7 @@ static int predictive_init(void *state, double abstol, double reltol,
   p->abstol = abstol;
   p->reltol = reltol;
   return abstol >= 0 && reltol >= 0 && abstol + reltol > 0 ? GSL_SUCCESS
-                                                            : GSL_EINVAL;
+                                                           : GSL_EINVAL;
 }
 
 static int predictive_adjust(void *state, size_t dim, unsigned order,
@@ -148,14 +148,14 @@ static int predictive_error_level(void *state, const double y,
   return GSL_SUCCESS;
 }
 
-static const gsl_odeiv2_control_type predictive = {
-    .name = "predictive",
-    .alloc = predictive_alloc,
-    .init = predictive_init,
-    .hadjust = predictive_adjust,
-    .errlevel = predictive_error_level,
-    .set_driver = set_driver,
-    .free = predictive_free};
+static const gsl_odeiv2_control_type predictive = {.name = "predictive",
+                                                   .alloc = predictive_alloc,
+                                                   .init = predictive_init,
+                                                   .hadjust = predictive_adjust,
+                                                   .errlevel =
+                                                       predictive_error_level,
+                                                   .set_driver = set_driver,
+                                                   .free = predictive_free};
 
 gsl_odeiv2_control *control_predictive_new(double abstol, double reltol,
                                            const double *scale, size_t dim) {
@@ -165,8 +165,8 @@ gsl_odeiv2_control *control_predictive_new(double abstol, double reltol,
   struct predictive *p = c->state;
   p->dim = dim;
   p->scale = malloc(dim * sizeof *scale);
-  if (!p->scale || gsl_odeiv2_control_init(c, abstol, reltol, 0, 0) !=
-                       GSL_SUCCESS) {
+  if (!p->scale ||
+      gsl_odeiv2_control_init(c, abstol, reltol, 0, 0) != GSL_SUCCESS) {
     gsl_odeiv2_control_free(c);
     return NULL;
   }

@@ -16,13 +16,18 @@ struct dynamics {
   struct dynamics_counts counts;
   size_t n, walls_count;
   struct wall *walls;
-  double *radius, *mass;
+  /* Row of the state <-> sphere of the bed: order[row] = sphere. */
+  size_t *order;
+  double *radius, *mass; /* by row */
   struct neighbors near;
   size_t *second_first, *wall_first; /* n + 1 */
   uint32_t *second;
   uint32_t *wall_sphere, *wall_id; /* room for n * walls */
   double *rows;
   size_t second_size, rows_size;
+  /* Rows [part[p], part[p+1]) are thread p's; those from settled[p] on have no
+     partner in an earlier part. */
+  size_t *part, *settled;
   /* The list holds for states within skin/2 of reference, 3n. */
   double *reference;
   double skin;
@@ -38,6 +43,9 @@ void dynamics_free(struct dynamics *d) {
     return;
   neighbors_free(&d->near);
   free(d->walls);
+  free(d->order);
+  free(d->part);
+  free(d->settled);
   free(d->radius);
   free(d->mass);
   free(d->second_first);
@@ -50,45 +58,94 @@ void dynamics_free(struct dynamics *d) {
   free(d);
 }
 
-/* malloc, filled from a source where there is one */
-static void *copy(const void *from, size_t bytes) {
-  void *to = calloc(1, bytes ? bytes : 1);
-  if (to && from && bytes)
-    memcpy(to, from, bytes);
-  return to;
+/* Zeroed; never NULL for want of size. */
+static void *allocate(size_t bytes) {
+  return calloc(1, bytes ? bytes : 1);
+}
+
+/* From so many spheres on, rows are put in the order of space, so that
+   partners are near each other in memory. */
+enum { REORDER = 1024 };
+
+struct place {
+  double cell[2], z;
+  size_t sphere;
+};
+
+static int compare_places(const void *a, const void *b) {
+  const struct place *p = a, *q = b;
+  for (int k = 0; k < 2; k++)
+    if (p->cell[k] != q->cell[k])
+      return p->cell[k] < q->cell[k] ? -1 : 1;
+  if (p->z != q->z)
+    return p->z < q->z ? -1 : 1;
+  return (p->sphere > q->sphere) - (p->sphere < q->sphere);
+}
+
+/* Columns of cells one after the other, from the floor up: spheres fall along
+   their column, so the order stays good. */
+static int find_order(struct dynamics *d, const struct bed *b, double edge) {
+  for (size_t i = 0; i < b->n; i++)
+    d->order[i] = i;
+  if (b->n < REORDER)
+    return GSL_SUCCESS;
+  struct place *places = malloc(b->n * sizeof *places);
+  if (!places)
+    return GSL_ENOMEM;
+  for (size_t i = 0; i < b->n; i++) {
+    const double *x = b->x + 3 * i;
+    places[i] =
+        (struct place){{floor(x[0] / edge), floor(x[1] / edge)}, x[2], i};
+  }
+  qsort(places, b->n, sizeof *places, compare_places);
+  for (size_t i = 0; i < b->n; i++)
+    d->order[i] = places[i].sphere;
+  free(places);
+  return GSL_SUCCESS;
 }
 
 struct dynamics *dynamics_alloc(const struct scene *s, const struct bed *b,
                                 const struct dynamics_options *o) {
-  if (b->n == 0)
+  const size_t n = b->n;
+  if (n == 0)
     return NULL;
-  bool uniform = true;
-  double smallest = GSL_POSINF;
-  for (size_t i = 0; i < b->n; i++) {
+  for (size_t i = 0; i < n; i++)
     if (!(b->r[i] > 0) || !(b->m[i] > 0))
       return NULL;
-    uniform = uniform && b->r[i] == b->r[0];
-    smallest = GSL_MIN(smallest, b->r[i]);
-  }
   struct dynamics *d = calloc(1, sizeof *d);
   if (!d)
     return NULL;
-  const size_t n = b->n, room = n * s->walls_count;
+  const size_t room = n * s->walls_count, parts = (size_t)o->threads + 1;
   d->n = n;
   d->options = *o;
   d->walls_count = s->walls_count;
-  d->walls = copy(s->walls, s->walls_count * sizeof *s->walls);
-  d->radius = copy(b->r, n * sizeof(double));
-  d->mass = copy(b->m, n * sizeof(double));
-  d->second_first = copy(NULL, (n + 1) * sizeof(size_t));
-  d->wall_first = copy(NULL, (n + 1) * sizeof(size_t));
-  d->wall_sphere = copy(NULL, room * sizeof(uint32_t));
-  d->wall_id = copy(NULL, room * sizeof(uint32_t));
-  d->reference = copy(NULL, 3 * n * sizeof(double));
-  if (!d->walls || !d->radius || !d->mass || !d->second_first ||
-      !d->wall_first || !d->wall_sphere || !d->wall_id || !d->reference) {
+  d->walls = allocate(s->walls_count * sizeof *s->walls);
+  d->order = allocate(n * sizeof(size_t));
+  d->radius = allocate(n * sizeof(double));
+  d->mass = allocate(n * sizeof(double));
+  d->second_first = allocate((n + 1) * sizeof(size_t));
+  d->wall_first = allocate((n + 1) * sizeof(size_t));
+  d->wall_sphere = allocate(room * sizeof(uint32_t));
+  d->wall_id = allocate(room * sizeof(uint32_t));
+  d->part = allocate(parts * sizeof(size_t));
+  d->settled = allocate(parts * sizeof(size_t));
+  d->reference = allocate(3 * n * sizeof(double));
+  if (!d->walls || !d->order || !d->radius || !d->mass || !d->second_first ||
+      !d->wall_first || !d->wall_sphere || !d->wall_id || !d->part ||
+      !d->settled || !d->reference ||
+      find_order(d, b, 2 * b->r[0] + s->law.lmax) != GSL_SUCCESS) {
     dynamics_free(d);
     return NULL;
+  }
+  for (size_t k = 0; k < s->walls_count; k++)
+    d->walls[k] = s->walls[k];
+  bool uniform = true;
+  double smallest = GSL_POSINF;
+  for (size_t i = 0; i < n; i++) {
+    d->radius[i] = b->r[d->order[i]];
+    d->mass[i] = b->m[d->order[i]];
+    uniform = uniform && d->radius[i] == d->radius[0];
+    smallest = GSL_MIN(smallest, d->radius[i]);
   }
   d->kernel = kernel_select();
   d->skin = 0.2 * smallest;
@@ -132,10 +189,11 @@ void dynamics_pack(const struct dynamics *d, const struct bed *b, double y[]) {
   for (size_t i = 0; i < d->n; i++)
     for (int c = 0; c < 3; c++) {
       double *row = y + i * d->k.stride;
-      row[c] = b->x[3 * i + c];
-      row[3 + c] = b->v[3 * i + c];
+      const size_t at = 3 * d->order[i] + c;
+      row[c] = b->x[at];
+      row[3 + c] = b->v[at];
       if (d->k.has.rotation)
-        row[6 + c] = b->w[3 * i + c];
+        row[6 + c] = b->w[at];
     }
 }
 
@@ -144,10 +202,11 @@ void dynamics_unpack(const struct dynamics *d, const double y[],
   for (size_t i = 0; i < d->n; i++)
     for (int c = 0; c < 3; c++) {
       const double *row = y + i * d->k.stride;
-      b->x[3 * i + c] = row[c];
-      b->v[3 * i + c] = row[3 + c];
+      const size_t at = 3 * d->order[i] + c;
+      b->x[at] = row[c];
+      b->v[at] = row[3 + c];
       if (d->k.has.rotation)
-        b->w[3 * i + c] = row[6 + c];
+        b->w[at] = row[6 + c];
     }
 }
 
@@ -208,6 +267,32 @@ static int build_second_list(struct dynamics *d) {
   return GSL_SUCCESS;
 }
 
+/* Parts of about equal work. They decide who computes what, never what comes
+   out. */
+static void build_parts(struct dynamics *d) {
+  const struct neighbors *near = &d->near;
+  const size_t threads = (size_t)d->options.threads;
+  const double all = (double)(near->count + d->k.wall_contacts + 2 * d->n);
+  size_t row = 0;
+  for (size_t p = 0; p < threads; p++) {
+    const double until = all * (double)p / (double)threads;
+    while (row < d->n &&
+           (double)(near->first[row] + d->wall_first[row] + 2 * row) < until)
+      row++;
+    d->part[p] = row;
+  }
+  d->part[threads] = d->n;
+  for (size_t p = 0; p < threads; p++) {
+    size_t settled = d->part[p];
+    for (size_t i = settled; i < d->part[p + 1]; i++) {
+      const size_t q = d->second_first[i];
+      if (q < d->second_first[i + 1] && near->i[d->second[q]] < d->part[p])
+        settled = i + 1;
+    }
+    d->settled[p] = settled;
+  }
+}
+
 static int build_list(struct dynamics *d, const double *y) {
   if (d->age != SIZE_MAX)
     tune_skin(d);
@@ -239,6 +324,7 @@ static int build_list(struct dynamics *d, const double *y) {
   d->k.first = d->near.first;
   d->k.second = d->second;
   d->k.rows = d->rows;
+  build_parts(d);
   d->counts.builds++;
   d->counts.contacts = contacts;
   d->age = 0;
@@ -278,28 +364,40 @@ static bool evaluate_all_pairs(struct dynamics *d, const double *y,
   return finite;
 }
 
-static bool evaluate_list(struct dynamics *d, const double *y, double *dydt) {
-  const size_t contacts = d->k.pairs + d->k.wall_contacts;
-  if (d->options.threads == 1) {
-    d->kernel->contacts(&d->k, y, 0, contacts);
-    return d->kernel->gather(&d->k, y, dydt, 0, d->n);
-  }
-  /* Chunks of a fixed size: what a thread computes never depends on how many
-     there are. */
-  enum { CONTACTS = 128, SPHERES = 32 };
-  const size_t contact_chunks = (contacts + CONTACTS - 1) / CONTACTS;
-  const size_t sphere_chunks = (d->n + SPHERES - 1) / SPHERES;
+/* Contacts of a part a few rows at a time, and each row's sum as soon as its
+   contacts are there, while they are in the cache. */
+static bool evaluate_part(const struct dynamics *d, size_t p, const double *y,
+                          double *dydt) {
+  enum { ROWS = 64 };
+  const struct kernel_data *k = &d->k;
   bool finite = true;
-#pragma omp parallel num_threads(d->options.threads)
+  for (size_t i = d->part[p]; i < d->part[p + 1]; i += ROWS) {
+    const size_t end = GSL_MIN(i + ROWS, d->part[p + 1]);
+    d->kernel->contacts(k, y, k->first[i], k->first[end]);
+    d->kernel->contacts(k, y, k->pairs + k->wall_first[i],
+                        k->pairs + k->wall_first[end]);
+    const size_t from = GSL_MAX(i, d->settled[p]);
+    if (from < end)
+      finite = d->kernel->gather(k, y, dydt, from, end) && finite;
+  }
+  return finite;
+}
+
+static bool evaluate_list(const struct dynamics *d, const double *y,
+                          double *dydt) {
+  const int threads = d->options.threads;
+  if (threads == 1)
+    return evaluate_part(d, 0, y, dydt);
+  bool finite = true;
+#pragma omp parallel num_threads(threads) reduction(&& : finite)
   {
-#pragma omp for schedule(static)
-    for (size_t c = 0; c < contact_chunks; c++)
-      d->kernel->contacts(&d->k, y, c * CONTACTS,
-                          GSL_MIN((c + 1) * CONTACTS, contacts));
-#pragma omp for schedule(static) reduction(&& : finite)
-    for (size_t c = 0; c < sphere_chunks; c++)
-      finite = d->kernel->gather(&d->k, y, dydt, c * SPHERES,
-                                 GSL_MIN((c + 1) * SPHERES, d->n)) &&
+#pragma omp for schedule(static, 1)
+    for (int p = 0; p < threads; p++)
+      finite = evaluate_part(d, (size_t)p, y, dydt) && finite;
+      /* rows with partners in earlier parts, whose contacts are there now */
+#pragma omp for schedule(static, 1) nowait
+    for (int p = 0; p < threads; p++)
+      finite = d->kernel->gather(&d->k, y, dydt, d->part[p], d->settled[p]) &&
                finite;
   }
   return finite;

@@ -2,7 +2,8 @@
    system.
 
    The state vector has one row a sphere, {x, y, z, vx, vy, vz} and, only where
-   the scene has friction and rotation, {wx, wy, wz}: 6n or 9n unknowns. One
+   the scene has friction and rotation, {wx, wy, wz}: 6n or 9n unknowns. Beds of
+   1024 spheres and more have their rows in the order of space. One
    struct dynamics serves one integration at a time; the evaluation itself is
    parallel with OpenMP and gives the same bits for any number of threads.
    Tested in tests/test_dynamics.c. */

@@ -12,7 +12,8 @@
 
 const char *const integrate_methods[] = {"merson", "dopri5", "rkf45", "rkck",
                                          "rk8pd",  "rkc",    "msbdf", NULL};
-const char *const integrate_controls[] = {"paper", "standard", "predictive", NULL};
+const char *const integrate_controls[] = {"paper", "standard", "predictive",
+                                          NULL};
 
 struct integrator {
   gsl_odeiv2_system system; /* first: the multistep methods point to it */

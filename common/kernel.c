@@ -25,7 +25,7 @@ double exp(double);
 
 /* Contacts go through the law in blocks that stay in the first-level cache:
    gather into columns, evaluate, scatter into rows. */
-enum { BLOCK = 64 };
+enum { BLOCK = 64, LANES = 8 };
 
 struct block {
   double nx[BLOCK], ny[BLOCK], nz[BLOCK]; /* unit normal to the sphere */
@@ -134,6 +134,11 @@ INLINE void load_pairs(const struct kernel_data *k, const double *y,
       load_four(k, y, from + c, c, b, has);
   for (; c < count; c++)
     load_pair(k, y, from + c, c, b, has);
+}
+
+/* Distances and normals of pairs, in place of separation vectors. */
+INLINE void normalise(const struct kernel_data *k, size_t count,
+                      struct block *b, const struct kernel_features has) {
   const double r = k->radius[0];
 #pragma omp simd
   for (size_t l = 0; l < count; l++) {
@@ -175,6 +180,19 @@ INLINE void load_walls(const struct kernel_data *k, const double *y,
       b->sz[c] = r * p[8];
     }
   }
+}
+
+/* Fills a block up to whole vectors with idle contacts, so that a contact is
+   computed the same way, to the last bit, wherever it stands in a block. */
+INLINE size_t pad(struct block *b, size_t count) {
+  const size_t padded = (count + LANES - 1) / LANES * LANES;
+  for (; count < padded; count++) {
+    b->nx[count] = 1;
+    b->ny[count] = b->nz[count] = b->gap[count] = 0;
+    b->vx[count] = b->vy[count] = b->vz[count] = 0;
+    b->sx[count] = b->sy[count] = b->sz[count] = 0;
+  }
+  return padded;
 }
 
 /* The law: contact.h, written for columns. */
@@ -269,7 +287,10 @@ INLINE void contacts(const struct kernel_data *k, const double *y, size_t from,
       load_walls(k, y, from - k->pairs, count, &b, has);
     else
       load_pairs(k, y, from, count, &b, has);
-    evaluate(&k->law, count, &b, has);
+    const size_t padded = pad(&b, count);
+    if (!wall)
+      normalise(k, padded, &b, has);
+    evaluate(&k->law, padded, &b, has);
     store(&b, count, k->rows + from * width, has);
     from += count;
   }

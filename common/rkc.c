@@ -23,7 +23,7 @@ struct state {
   double radius; /* spectral radius, 0: unknown */
   struct rkc_report report;
   size_t dim;
-  bool fresh; /* the direction below is not from this system yet */
+  bool fresh;    /* the direction below is not from this system yet */
   double work[]; /* direction, y at the start, two stages, slopes: 6 dim */
 };
 
@@ -71,11 +71,9 @@ static int power_iterate(struct state *s, double t, const double *y,
                          const double *f, const gsl_odeiv2_system *sys,
                          double *radius) {
   const size_t dim = s->dim;
-  double *direction = s->work, *trial = direction + dim,
-         *slope = trial + dim;
+  double *direction = s->work, *trial = direction + dim, *slope = trial + dim;
   const double length = norm(dim, direction);
-  const double small =
-      sqrt(GSL_DBL_EPSILON) * GSL_MAX(norm(dim, y), 1e-3);
+  const double small = sqrt(GSL_DBL_EPSILON) * GSL_MAX(norm(dim, y), 1e-3);
   euler(dim, small / length, y, direction, trial);
   const int status = GSL_ODEIV_FN_EVAL(sys, t, trial, slope);
   s->report.power_evaluations++;

@@ -16,9 +16,9 @@ extern const gsl_odeiv2_step_type *const rkc;
 
 /* What a stepper of this type has found so far. */
 struct rkc_report {
-  double spectral_radius; /* estimate in use (1/s) */
-  size_t stages;          /* of the last step */
-  size_t most_stages;     /* of any step */
+  double spectral_radius;   /* estimate in use (1/s) */
+  size_t stages;            /* of the last step */
+  size_t most_stages;       /* of any step */
   size_t power_evaluations; /* spent on the spectral radius */
 };
 struct rkc_report rkc_report(const gsl_odeiv2_step *s);
