@@ -9,9 +9,11 @@
 #include "dopri5.h"
 #include "merson.h"
 #include "rkc.h"
+#include "verlet.h"
 
-const char *const integrate_methods[] = {"merson", "dopri5", "rkf45", "rkck",
-                                         "rk8pd",  "rkc",    "msbdf", NULL};
+const char *const integrate_methods[] = {"merson", "dopri5", "rkf45",
+                                         "rkck",   "rk8pd",  "rkc",
+                                         "verlet", "msbdf",  NULL};
 const char *const integrate_controls[] = {"paper", "standard", "predictive",
                                           NULL};
 
@@ -39,6 +41,7 @@ static const gsl_odeiv2_step_type *find_method(const char *name) {
                  {"rkck", gsl_odeiv2_step_rkck},
                  {"rk8pd", gsl_odeiv2_step_rk8pd},
                  {"rkc", rkc},
+                 {"verlet", verlet},
                  {"msbdf", gsl_odeiv2_step_msbdf}};
   for (size_t i = 0; i < sizeof methods / sizeof *methods; i++)
     if (!strcmp(name, methods[i].name))
@@ -76,7 +79,8 @@ int integrate_alloc(struct integrator **out, const struct integrate_options *o,
   bool known = false;
   for (size_t i = 0; integrate_controls[i]; i++)
     known = known || !strcmp(o->control, integrate_controls[i]);
-  if (!type || !known || !(o->step > 0 || o->hinit > 0))
+  if (!type || !known || !(o->step > 0 || o->hinit > 0) ||
+      (type == verlet && !(o->step > 0 && problem->positions > 0)))
     return GSL_EINVAL;
   struct integrator *it = calloc(1, sizeof *it + dim * sizeof *y);
   if (!it)
@@ -96,6 +100,8 @@ int integrate_alloc(struct integrator **out, const struct integrate_options *o,
     integrate_free(it);
     return GSL_ENOMEM;
   }
+  if (type == verlet)
+    verlet_set_layout(it->step, problem->row, problem->positions);
   it->driver = (gsl_odeiv2_driver){
       .sys = &it->system, .s = it->step, .c = it->control, .e = it->evolve};
   gsl_odeiv2_step_set_driver(it->step, &it->driver);
@@ -109,13 +115,9 @@ static int attempt(struct integrator *it, double *h) {
   gsl_odeiv2_evolve *e = it->evolve;
   const double t = it->t;
   const unsigned long failed = e->failed_steps;
-  int status;
-  if (it->control)
-    status = gsl_odeiv2_evolve_apply(e, it->control, it->step, &it->system,
-                                     &it->t, GSL_DBL_MAX, h, it->y);
-  else
-    status = gsl_odeiv2_evolve_apply_fixed_step(e, NULL, it->step, &it->system,
-                                                &it->t, *h, it->y);
+  /* not apply_fixed_step, which evaluates the start of every step anew */
+  const int status = gsl_odeiv2_evolve_apply(
+      e, it->control, it->step, &it->system, &it->t, GSL_DBL_MAX, h, it->y);
   it->counts.rejected += e->failed_steps - failed;
   if (status != GSL_SUCCESS) {
     if (status == GSL_FAILURE && e->count > 0) /* y holds the rejected trial */

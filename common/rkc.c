@@ -17,20 +17,27 @@ static const double safety = 1.2;
 
 /* More stages than this gain nothing on a shorter step and let rounding
    grow. */
-enum { MOST_STAGES = 400, FIRST_ITERATIONS = 50, NEXT_ITERATIONS = 3 };
+enum { MOST_STAGES = 400 };
+
+/* Power iterations at most when nothing is known and when something is, and
+   how many steps an estimate serves unless one is rejected. */
+enum { FIRST_ITERATIONS = 50, NEXT_ITERATIONS = 3, ESTIMATE_SERVES = 4 };
 
 struct state {
-  double radius; /* spectral radius, 0: unknown */
+  double radius;     /* spectral radius, 0: unknown */
+  size_t steps;      /* since it was estimated */
+  double last_start; /* of the last attempt, to know a second one by */
   struct rkc_report report;
   size_t dim;
-  bool fresh;    /* the direction below is not from this system yet */
   double work[]; /* direction, y at the start, two stages, slopes: 6 dim */
 };
 
 static void *alloc(size_t dim) {
   struct state *s = calloc(1, sizeof *s + 6 * dim * sizeof(double));
-  if (s)
+  if (s) {
     s->dim = dim;
+    s->last_start = GSL_NAN;
+  }
   return s;
 }
 
@@ -82,11 +89,9 @@ static int power_iterate(struct state *s, double t, const double *y,
   for (size_t i = 0; i < dim; i++)
     direction[i] = slope[i] - f[i];
   *radius = norm(dim, direction) / small;
-  if (!(*radius > 0)) { /* f does not change along it: try another */
+  if (!(*radius > 0)) /* f does not change along it: try another */
     for (size_t i = 0; i < dim; i++)
-      direction[i] = (double)((i * 2654435761u + 12345) % 1024) / 512 - 1;
-    s->fresh = true;
-  }
+      direction[i] = i % 2 ? 1 : -1;
   return GSL_SUCCESS;
 }
 
@@ -110,6 +115,7 @@ static int estimate_radius(struct state *s, double t, const double *y,
     last = radius;
   }
   s->radius = s->report.spectral_radius = safety * radius;
+  s->steps = 0;
   return GSL_SUCCESS;
 }
 
@@ -148,8 +154,11 @@ static int apply(void *vstate, size_t dim, double t, double h, double y[],
     memcpy(f0, dydt_in, dim * sizeof *f0);
   else
     status = GSL_ODEIV_FN_EVAL(sys, t, y, f0);
-  if (status == GSL_SUCCESS)
+  const bool rejected = t == s->last_start;
+  if (status == GSL_SUCCESS &&
+      (s->radius == 0 || rejected || ++s->steps > ESTIMATE_SERVES))
     status = estimate_radius(s, t, y, f0, sys);
+  s->last_start = t;
   if (status != GSL_SUCCESS)
     return status;
   if (fabs(h) * s->radius > rkc_reach(MOST_STAGES))
@@ -213,7 +222,9 @@ static int set_driver(void *state, const gsl_odeiv2_driver *d) {
 
 static int reset(void *state, size_t dim) {
   (void)dim;
-  ((struct state *)state)->radius = 0;
+  struct state *s = state;
+  s->radius = 0;
+  s->last_start = GSL_NAN;
   return GSL_SUCCESS;
 }
 

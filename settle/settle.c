@@ -30,6 +30,8 @@ static void check(const struct settings *s, const struct bed *b) {
         b->n, MSBDF_SPHERES);
   if (!strcmp(o->method, "msbdf") && o->step > 0)
     die(EXIT_USAGE, "--method msbdf: has no fixed step");
+  if (!strcmp(o->method, "verlet") && !(o->step > 0))
+    die(EXIT_USAGE, "--method verlet: expected a fixed --step");
   if (s->time < b->t)
     die(EXIT_USAGE, "--time %g: the start is at t=%g already", s->time, b->t);
 }
