@@ -20,14 +20,15 @@ struct dynamics {
   size_t *order;
   double *radius, *mass; /* by row */
   struct neighbors near;
-  size_t *second_first, *wall_first; /* n + 1 */
-  uint32_t *second;
+  size_t *wall_first;              /* n + 1 */
   uint32_t *wall_sphere, *wall_id; /* room for n * walls */
-  double *rows;
-  size_t second_size, rows_size;
-  /* Rows [part[p], part[p+1]) are thread p's; those from settled[p] on have no
-     partner in an earlier part. */
-  size_t *part, *settled;
+  double *sums;                    /* of forces, by row */
+  /* Thread p has rows [part[p], part[p+1]). Pairs with one partner in an
+     earlier part are computed there and here: incoming[p] to incoming[p+1],
+     ascending. */
+  size_t *part, *incoming;
+  uint32_t *in_i, *in_j;
+  size_t incoming_size;
   /* The list holds for states within skin/2 of reference, 3n. */
   double *reference;
   double skin;
@@ -45,15 +46,15 @@ void dynamics_free(struct dynamics *d) {
   free(d->walls);
   free(d->order);
   free(d->part);
-  free(d->settled);
+  free(d->incoming);
+  free(d->in_i);
+  free(d->in_j);
   free(d->radius);
   free(d->mass);
-  free(d->second_first);
   free(d->wall_first);
-  free(d->second);
   free(d->wall_sphere);
   free(d->wall_id);
-  free(d->rows);
+  free(d->sums);
   free(d->reference);
   free(d);
 }
@@ -123,16 +124,16 @@ struct dynamics *dynamics_alloc(const struct scene *s, const struct bed *b,
   d->order = allocate(n * sizeof(size_t));
   d->radius = allocate(n * sizeof(double));
   d->mass = allocate(n * sizeof(double));
-  d->second_first = allocate((n + 1) * sizeof(size_t));
   d->wall_first = allocate((n + 1) * sizeof(size_t));
   d->wall_sphere = allocate(room * sizeof(uint32_t));
   d->wall_id = allocate(room * sizeof(uint32_t));
   d->part = allocate(parts * sizeof(size_t));
-  d->settled = allocate(parts * sizeof(size_t));
+  d->incoming = allocate(parts * sizeof(size_t));
+  d->sums = allocate(n * KERNEL_SUM * sizeof(double));
   d->reference = allocate(3 * n * sizeof(double));
-  if (!d->walls || !d->order || !d->radius || !d->mass || !d->second_first ||
-      !d->wall_first || !d->wall_sphere || !d->wall_id || !d->part ||
-      !d->settled || !d->reference ||
+  if (!d->walls || !d->order || !d->radius || !d->mass || !d->wall_first ||
+      !d->wall_sphere || !d->wall_id || !d->part || !d->incoming || !d->sums ||
+      !d->reference ||
       find_order(d, b, 2 * b->r[0] + s->law.lmax) != GSL_SUCCESS) {
     dynamics_free(d);
     return NULL;
@@ -159,12 +160,11 @@ struct dynamics *dynamics_alloc(const struct scene *s, const struct bed *b,
       .radius = d->radius,
       .mass = d->mass,
       .walls = d->walls,
-      .second_first = d->second_first,
       .wall_first = d->wall_first,
       .wall_sphere = d->wall_sphere,
-      .wall_id = d->wall_id};
+      .wall_id = d->wall_id,
+      .sums = d->sums};
   d->k.stride = d->k.has.rotation ? 9 : 6;
-  d->k.width = d->k.has.rotation ? 8 : 4;
   d->age = SIZE_MAX; /* no list yet */
   return d;
 }
@@ -224,7 +224,7 @@ static void tune_skin(struct dynamics *d) {
   d->skin = GSL_MIN(GSL_MAX(d->skin, 0.02 * r), 2 * r);
 }
 
-static int build_wall_list(struct dynamics *d, const double *y) {
+static void build_wall_list(struct dynamics *d, const double *y) {
   const double reach = d->k.law.lmax + d->skin;
   size_t count = 0;
   for (size_t i = 0; i < d->n; i++) {
@@ -240,57 +240,72 @@ static int build_wall_list(struct dynamics *d, const double *y) {
   }
   d->wall_first[d->n] = count;
   d->k.wall_contacts = count;
-  return GSL_SUCCESS;
-}
-
-/* For each sphere the pairs of which it is the second partner, ascending. */
-static int build_second_list(struct dynamics *d) {
-  const struct neighbors *near = &d->near;
-  if (near->size > d->second_size) {
-    uint32_t *second = realloc(d->second, near->size * sizeof *second);
-    if (!second)
-      return GSL_ENOMEM;
-    d->second = second;
-    d->second_size = near->size;
-  }
-  size_t *first = d->second_first;
-  memset(first, 0, (d->n + 1) * sizeof *first);
-  for (size_t p = 0; p < near->count; p++)
-    first[near->j[p] + 1]++;
-  for (size_t i = 0; i < d->n; i++)
-    first[i + 1] += first[i];
-  for (size_t p = 0; p < near->count; p++)
-    d->second[first[near->j[p]]++] = (uint32_t)p;
-  for (size_t i = d->n; i > 0; i--)
-    first[i] = first[i - 1];
-  first[0] = 0;
-  return GSL_SUCCESS;
 }
 
 /* Parts of about equal work. They decide who computes what, never what comes
    out. */
-static void build_parts(struct dynamics *d) {
-  const struct neighbors *near = &d->near;
+static void split_rows(struct dynamics *d) {
   const size_t threads = (size_t)d->options.threads;
-  const double all = (double)(near->count + d->k.wall_contacts + 2 * d->n);
+  const size_t *first = d->near.first, *wall_first = d->wall_first;
+  const double all = (double)(first[d->n] + wall_first[d->n] + d->n);
   size_t row = 0;
   for (size_t p = 0; p < threads; p++) {
     const double until = all * (double)p / (double)threads;
-    while (row < d->n &&
-           (double)(near->first[row] + d->wall_first[row] + 2 * row) < until)
+    while (row < d->n && (double)(first[row] + wall_first[row] + row) < until)
       row++;
     d->part[p] = row;
   }
   d->part[threads] = d->n;
-  for (size_t p = 0; p < threads; p++) {
-    size_t settled = d->part[p];
-    for (size_t i = settled; i < d->part[p + 1]; i++) {
-      const size_t q = d->second_first[i];
-      if (q < d->second_first[i + 1] && near->i[d->second[q]] < d->part[p])
-        settled = i + 1;
+}
+
+static size_t part_of(const struct dynamics *d, size_t row) {
+  size_t p = 0;
+  while (row >= d->part[p + 1])
+    p++;
+  return p;
+}
+
+/* Lists for each part the pairs that come into it from earlier ones. */
+static int list_incoming(struct dynamics *d) {
+  const struct neighbors *near = &d->near;
+  const size_t threads = (size_t)d->options.threads;
+  memset(d->incoming, 0, (threads + 1) * sizeof *d->incoming);
+  if (threads == 1)
+    return GSL_SUCCESS;
+  for (int pass = 0; pass < 2; pass++) { /* count, then fill */
+    size_t p = 0;
+    for (size_t i = 0; i < d->n; i++) {
+      while (i >= d->part[p + 1])
+        p++;
+      for (size_t q = near->first[i]; q < near->first[i + 1]; q++)
+        if (near->j[q] >= d->part[p + 1]) {
+          size_t *end = &d->incoming[part_of(d, near->j[q]) + (pass == 0)];
+          if (pass) {
+            d->in_i[*end] = near->i[q];
+            d->in_j[*end] = near->j[q];
+          }
+          ++*end;
+        }
     }
-    d->settled[p] = settled;
+    if (pass == 0) {
+      for (size_t q = 0; q < threads; q++)
+        d->incoming[q + 1] += d->incoming[q];
+      const size_t count = d->incoming[threads];
+      if (count > d->incoming_size) {
+        free(d->in_i);
+        free(d->in_j);
+        d->in_i = allocate(2 * count * sizeof *d->in_i);
+        d->in_j = allocate(2 * count * sizeof *d->in_j);
+        d->incoming_size = d->in_i && d->in_j ? 2 * count : 0;
+        if (!d->incoming_size)
+          return GSL_ENOMEM;
+      }
+    }
   }
+  for (size_t q = threads; q > 0; q--) /* the ends are the next beginnings */
+    d->incoming[q] = d->incoming[q - 1];
+  d->incoming[0] = 0;
+  return GSL_SUCCESS;
 }
 
 static int build_list(struct dynamics *d, const double *y) {
@@ -299,34 +314,21 @@ static int build_list(struct dynamics *d, const double *y) {
   d->age = SIZE_MAX; /* stays so if anything below fails */
   int status = neighbors_find(&d->near, d->n, y, d->k.stride, d->radius,
                               d->k.law.lmax + d->skin);
-  if (status == GSL_SUCCESS)
-    status = build_second_list(d);
-  if (status == GSL_SUCCESS)
-    status = build_wall_list(d, y);
+  if (status == GSL_SUCCESS) {
+    build_wall_list(d, y);
+    split_rows(d);
+    status = list_incoming(d);
+  }
   if (status != GSL_SUCCESS)
     return status == GSL_EINVAL ? GSL_EBADFUNC : status;
-  const size_t contacts = d->near.count + d->k.wall_contacts;
-  if (contacts > d->rows_size) {
-    const size_t size = contacts + contacts / 4;
-    free(d->rows);
-    d->rows_size = 0;
-    /* rows are padded to a power of two; the padding stays zero */
-    d->rows = calloc(size * d->k.width, sizeof *d->rows);
-    if (!d->rows)
-      return GSL_ENOMEM;
-    d->rows_size = size;
-  }
   for (size_t i = 0; i < d->n; i++)
     memcpy(d->reference + 3 * i, y + i * d->k.stride, 3 * sizeof *y);
   d->k.pairs = d->near.count;
   d->k.i = d->near.i;
   d->k.j = d->near.j;
   d->k.first = d->near.first;
-  d->k.second = d->second;
-  d->k.rows = d->rows;
-  build_parts(d);
   d->counts.builds++;
-  d->counts.contacts = contacts;
+  d->counts.contacts = d->near.count + d->k.wall_contacts;
   d->age = 0;
   return GSL_SUCCESS;
 }
@@ -364,21 +366,23 @@ static bool evaluate_all_pairs(struct dynamics *d, const double *y,
   return finite;
 }
 
-/* Contacts of a part a few rows at a time, and each row's sum as soon as its
-   contacts are there, while they are in the cache. */
+/* A part a few rows at a time, each finished while it is in the cache: a row's
+   pairs as second partner belong to rows before it. */
 static bool evaluate_part(const struct dynamics *d, size_t p, const double *y,
                           double *dydt) {
   enum { ROWS = 64 };
+  const struct kernel *kernel = d->kernel;
   const struct kernel_data *k = &d->k;
+  const struct kernel_rows part = {d->part[p], d->part[p + 1]};
+  kernel->add_pairs(k, y, d->in_i + d->incoming[p], d->in_j + d->incoming[p],
+                    d->incoming[p + 1] - d->incoming[p], part);
   bool finite = true;
-  for (size_t i = d->part[p]; i < d->part[p + 1]; i += ROWS) {
-    const size_t end = GSL_MIN(i + ROWS, d->part[p + 1]);
-    d->kernel->contacts(k, y, k->first[i], k->first[end]);
-    d->kernel->contacts(k, y, k->pairs + k->wall_first[i],
-                        k->pairs + k->wall_first[end]);
-    const size_t from = GSL_MAX(i, d->settled[p]);
-    if (from < end)
-      finite = d->kernel->gather(k, y, dydt, from, end) && finite;
+  for (size_t i = part.from; i < part.to; i += ROWS) {
+    const struct kernel_rows some = {i, GSL_MIN(i + ROWS, part.to)};
+    const size_t from = k->first[i], to = k->first[some.to];
+    kernel->add_pairs(k, y, k->i + from, k->j + from, to - from, part);
+    kernel->add_walls(k, y, some);
+    finite = kernel->finish(k, y, dydt, some) && finite;
   }
   return finite;
 }
@@ -389,17 +393,10 @@ static bool evaluate_list(const struct dynamics *d, const double *y,
   if (threads == 1)
     return evaluate_part(d, 0, y, dydt);
   bool finite = true;
-#pragma omp parallel num_threads(threads) reduction(&& : finite)
-  {
-#pragma omp for schedule(static, 1)
-    for (int p = 0; p < threads; p++)
-      finite = evaluate_part(d, (size_t)p, y, dydt) && finite;
-      /* rows with partners in earlier parts, whose contacts are there now */
-#pragma omp for schedule(static, 1) nowait
-    for (int p = 0; p < threads; p++)
-      finite = d->kernel->gather(&d->k, y, dydt, d->part[p], d->settled[p]) &&
-               finite;
-  }
+#pragma omp parallel for num_threads(threads) schedule(static, 1)              \
+    reduction(&& : finite)
+  for (int p = 0; p < threads; p++)
+    finite = evaluate_part(d, (size_t)p, y, dydt) && finite;
   return finite;
 }
 

@@ -24,7 +24,7 @@ double exp(double);
 #define INLINE static inline __attribute__((always_inline))
 
 /* Contacts go through the law in blocks that stay in the first-level cache:
-   gather into columns, evaluate, scatter into rows. */
+   gather into columns, evaluate, add to the spheres' rows. */
 enum { BLOCK = 64, LANES = 8 };
 
 struct block {
@@ -69,11 +69,10 @@ INLINE void transpose(vec4 r[4]) {
 }
 
 /* One pair's differences of positions and velocities and its sum of r w. */
-INLINE void load_pair(const struct kernel_data *k, const double *y, size_t pair,
-                      size_t c, struct block *b,
+INLINE void load_pair(const struct kernel_data *k, const double *y, size_t i,
+                      size_t j, size_t c, struct block *b,
                       const struct kernel_features has) {
   const size_t stride = has.rotation ? 9 : 6;
-  const size_t i = k->i[pair], j = k->j[pair];
   const double *p = y + i * stride, *q = y + j * stride;
   const double ri = has.uniform ? 1 : k->radius[i],
                rj = has.uniform ? 1 : k->radius[j];
@@ -93,15 +92,15 @@ INLINE void load_pair(const struct kernel_data *k, const double *y, size_t pair,
 }
 
 /* The same for four pairs of equal spheres. */
-INLINE void load_four(const struct kernel_data *k, const double *y, size_t pair,
+INLINE void load_four(const double *y, const uint32_t *i, const uint32_t *j,
                       size_t c, struct block *b,
                       const struct kernel_features has) {
   const size_t stride = has.rotation ? 9 : 6;
   const vec4 plus = {-1, -1, 1, 1}; /* velocities less, spins and */
   vec4 u[4], w[4];
   for (int l = 0; l < 4; l++) {
-    const double *p = y + k->i[pair + l] * stride;
-    const double *q = y + k->j[pair + l] * stride;
+    const double *p = y + i[l] * stride;
+    const double *q = y + j[l] * stride;
     u[l] = vec4_load(p) - vec4_load(q);
     if (has.rotation) {
       w[l] = vec4_load(p + 4) + plus * vec4_load(q + 4);
@@ -126,14 +125,14 @@ INLINE void load_four(const struct kernel_data *k, const double *y, size_t pair,
 
 /* (2.2): separation vectors, relative velocities and spins of pairs. */
 INLINE void load_pairs(const struct kernel_data *k, const double *y,
-                       size_t from, size_t count, struct block *b,
-                       const struct kernel_features has) {
+                       const uint32_t *i, const uint32_t *j, size_t count,
+                       struct block *b, const struct kernel_features has) {
   size_t c = 0;
   if (WIDE && has.uniform)
     for (; c + 4 <= count; c += 4)
-      load_four(k, y, from + c, c, b, has);
+      load_four(y, i + c, j + c, c, b, has);
   for (; c < count; c++)
-    load_pair(k, y, from + c, c, b, has);
+    load_pair(k, y, i[c], j[c], c, b, has);
 }
 
 /* Distances and normals of pairs, in place of separation vectors. */
@@ -244,99 +243,146 @@ INLINE void evaluate(const struct contact_law *law, size_t count,
   }
 }
 
-INLINE void store(const struct block *b, size_t count, double *row,
-                  const struct kernel_features has) {
-  const size_t width = has.rotation ? 8 : 4;
-  size_t c = 0;
-  for (; WIDE && c + 4 <= count; c += 4) {
-    vec4 f[4] = {vec4_load(b->fx + c), vec4_load(b->fy + c),
-                 vec4_load(b->fz + c)};
+/* Four contacts' results as rows. */
+INLINE void unload_four(const struct block *b, size_t c, vec4 f[4], vec4 t[4],
+                        const struct kernel_features has) {
+  if (WIDE) {
+    f[0] = vec4_load(b->fx + c);
+    f[1] = vec4_load(b->fy + c);
+    f[2] = vec4_load(b->fz + c);
+    f[3] = (vec4){0};
     transpose(f);
-    for (size_t l = 0; l < 4; l++)
-      vec4_store(f[l], row + (c + l) * width);
     if (has.rotation) {
-      vec4 t[4] = {vec4_load(b->tx + c), vec4_load(b->ty + c),
-                   vec4_load(b->tz + c)};
+      t[0] = vec4_load(b->tx + c);
+      t[1] = vec4_load(b->ty + c);
+      t[2] = vec4_load(b->tz + c);
+      t[3] = (vec4){0};
       transpose(t);
-      for (size_t l = 0; l < 4; l++)
-        vec4_store(t[l], row + (c + l) * width + 4);
     }
+    return;
   }
-  for (; c < count; c++) {
-    double *to = row + c * width;
-    to[0] = b->fx[c];
-    to[1] = b->fy[c];
-    to[2] = b->fz[c];
-    if (has.rotation) {
-      to[4] = b->tx[c];
-      to[5] = b->ty[c];
-      to[6] = b->tz[c];
-    }
+  for (int l = 0; l < 4; l++, c++) {
+    f[l] = (vec4){b->fx[c], b->fy[c], b->fz[c], 0};
+    if (has.rotation)
+      t[l] = (vec4){b->tx[c], b->ty[c], b->tz[c], 0};
   }
 }
 
-INLINE void contacts(const struct kernel_data *k, const double *y, size_t from,
-                     size_t to, const struct kernel_features has) {
+INLINE bool within(struct kernel_rows rows, size_t i) {
+  return i >= rows.from && i < rows.to;
+}
+
+/* As second partner the force is reversed, the torque is not. The first
+   partner's sum stays in registers over its run of pairs. */
+INLINE void scatter_pairs(const struct kernel_data *k, const struct block *b,
+                          const uint32_t *i, const uint32_t *j, size_t count,
+                          struct kernel_rows rows,
+                          const struct kernel_features has) {
+  size_t owner = i[0];
+  double *sum = k->sums + owner * KERNEL_SUM;
+  bool ours = within(rows, owner);
+  vec4 own_f = {0}, own_t = {0};
+  if (ours) {
+    own_f = vec4_load(sum);
+    own_t = vec4_load(sum + 4);
+  }
+  for (size_t c = 0; c < count; c += 4) {
+    vec4 f[4], t[4];
+    unload_four(b, c, f, t, has);
+    for (size_t l = 0; l < 4 && c + l < count; l++) {
+      if (i[c + l] != owner) {
+        if (ours) {
+          vec4_store(own_f, sum);
+          if (has.rotation)
+            vec4_store(own_t, sum + 4);
+        }
+        owner = i[c + l];
+        sum = k->sums + owner * KERNEL_SUM;
+        ours = within(rows, owner);
+        if (ours) {
+          own_f = vec4_load(sum);
+          own_t = vec4_load(sum + 4);
+        }
+      }
+      own_f += f[l];
+      if (has.rotation)
+        own_t += t[l];
+      if (within(rows, j[c + l])) {
+        double *other = k->sums + j[c + l] * KERNEL_SUM;
+        vec4_store(vec4_load(other) - f[l], other);
+        if (has.rotation)
+          vec4_store(vec4_load(other + 4) + t[l], other + 4);
+      }
+    }
+  }
+  if (ours) {
+    vec4_store(own_f, sum);
+    if (has.rotation)
+      vec4_store(own_t, sum + 4);
+  }
+}
+
+INLINE void add_pairs(const struct kernel_data *k, const double *y,
+                      const uint32_t *i, const uint32_t *j, size_t count,
+                      struct kernel_rows rows,
+                      const struct kernel_features has) {
   struct block b;
-  const size_t width = has.rotation ? 8 : 4;
-  while (from < to) {
-    const bool wall = from >= k->pairs;
-    const size_t end = wall || to <= k->pairs ? to : k->pairs;
-    const size_t count = end - from < BLOCK ? end - from : BLOCK;
-    if (wall)
-      load_walls(k, y, from - k->pairs, count, &b, has);
-    else
-      load_pairs(k, y, from, count, &b, has);
-    const size_t padded = pad(&b, count);
-    if (!wall)
-      normalise(k, padded, &b, has);
+  for (size_t from = 0; from < count; from += BLOCK) {
+    const size_t some = count - from < BLOCK ? count - from : BLOCK;
+    load_pairs(k, y, i + from, j + from, some, &b, has);
+    const size_t padded = pad(&b, some);
+    normalise(k, padded, &b, has);
     evaluate(&k->law, padded, &b, has);
-    store(&b, count, k->rows + from * width, has);
-    from += count;
+    scatter_pairs(k, &b, i + from, j + from, some, rows, has);
   }
 }
 
-/* (2.13)-(2.15): as second partner the force is reversed, the torque is not. */
-INLINE bool gather(const struct kernel_data *k, const double *y, double *dydt,
-                   size_t from, size_t to, const struct kernel_features has) {
-  const size_t stride = has.rotation ? 9 : 6, width = has.rotation ? 8 : 4;
+INLINE void add_walls(const struct kernel_data *k, const double *y,
+                      struct kernel_rows rows,
+                      const struct kernel_features has) {
+  struct block b;
+  const size_t end = k->wall_first[rows.to];
+  for (size_t from = k->wall_first[rows.from]; from < end; from += BLOCK) {
+    const size_t some = end - from < BLOCK ? end - from : BLOCK;
+    load_walls(k, y, from, some, &b, has);
+    evaluate(&k->law, pad(&b, some), &b, has);
+    for (size_t c = 0; c < some; c++) {
+      double *sum = k->sums + k->wall_sphere[from + c] * KERNEL_SUM;
+      sum[0] += b.fx[c];
+      sum[1] += b.fy[c];
+      sum[2] += b.fz[c];
+      if (has.rotation) {
+        sum[4] += b.tx[c];
+        sum[5] += b.ty[c];
+        sum[6] += b.tz[c];
+      }
+    }
+  }
+}
+
+/* (2.13)-(2.15): torque = -r n x f, I = 2 m r^2 / 5 */
+INLINE bool finish(const struct kernel_data *k, const double *y, double *dydt,
+                   struct kernel_rows rows, const struct kernel_features has) {
+  const size_t stride = has.rotation ? 9 : 6;
   double checksum = 0;
-  for (size_t i = from; i < to; i++) {
-    vec4 f = {0}, t = {0};
-    for (size_t q = k->second_first[i]; q < k->second_first[i + 1]; q++) {
-      const double *row = k->rows + k->second[q] * width;
-      f -= vec4_load(row);
-      if (has.rotation)
-        t += vec4_load(row + 4);
-    }
-    for (size_t p = k->first[i]; p < k->first[i + 1]; p++) {
-      const double *row = k->rows + p * width;
-      f += vec4_load(row);
-      if (has.rotation)
-        t += vec4_load(row + 4);
-    }
-    for (size_t p = k->wall_first[i]; p < k->wall_first[i + 1]; p++) {
-      const double *row = k->rows + (k->pairs + p) * width;
-      f += vec4_load(row);
-      if (has.rotation)
-        t += vec4_load(row + 4);
-    }
+  for (size_t i = rows.from; i < rows.to; i++) {
     const double *state = y + i * stride;
-    double *rate = dydt + i * stride;
+    double *rate = dydt + i * stride, *sum = k->sums + i * KERNEL_SUM;
     const double inverse_mass = 1 / k->mass[i];
     for (int c = 0; c < 3; c++) {
       rate[c] = state[3 + c];
-      rate[3 + c] = k->gravity[c] + inverse_mass * f[c];
+      rate[3 + c] = k->gravity[c] + inverse_mass * sum[c];
       checksum += rate[c] + rate[3 + c];
     }
     if (has.rotation) {
-      /* torque = -r n x f, I = 2 m r^2 / 5 */
       const double scale = -2.5 * inverse_mass / k->radius[i];
       for (int c = 0; c < 3; c++) {
-        rate[6 + c] = scale * t[c];
+        rate[6 + c] = scale * sum[4 + c];
         checksum += rate[6 + c];
       }
     }
+    for (int c = 0; c < KERNEL_SUM; c++)
+      sum[c] = 0;
   }
   return isfinite(checksum);
 }
@@ -364,21 +410,28 @@ INLINE bool gather(const struct kernel_data *k, const double *y, double *dydt,
       call(((struct kernel_features){friction, rotation, false, false}));      \
   } while (0)
 
-static void contacts_any(const struct kernel_data *k, const double *y,
-                         size_t from, size_t to) {
-#define CALL(has) contacts(k, y, from, to, has)
+static void add_pairs_any(const struct kernel_data *k, const double *y,
+                          const uint32_t *i, const uint32_t *j, size_t count,
+                          struct kernel_rows rows) {
+#define CALL(has) add_pairs(k, y, i, j, count, rows, has)
   DISPATCH(CALL);
 #undef CALL
 }
 
-static bool gather_any(const struct kernel_data *k, const double *y,
-                       double *dydt, size_t from, size_t to) {
+static void add_walls_any(const struct kernel_data *k, const double *y,
+                          struct kernel_rows rows) {
+#define CALL(has) add_walls(k, y, rows, has)
+  DISPATCH(CALL);
+#undef CALL
+}
+
+static bool finish_any(const struct kernel_data *k, const double *y,
+                       double *dydt, struct kernel_rows rows) {
   if (k->has.rotation)
-    return gather(k, y, dydt, from, to,
-                  (struct kernel_features){.rotation = true});
-  return gather(k, y, dydt, from, to, (struct kernel_features){0});
+    return finish(k, y, dydt, rows, (struct kernel_features){.rotation = true});
+  return finish(k, y, dydt, rows, (struct kernel_features){0});
 }
 
 extern const struct kernel JOIN(kernel_, KERNEL_ISA);
-const struct kernel JOIN(kernel_, KERNEL_ISA) = {TEXT(KERNEL_ISA), contacts_any,
-                                                 gather_any};
+const struct kernel JOIN(kernel_, KERNEL_ISA) = {
+    TEXT(KERNEL_ISA), add_pairs_any, add_walls_any, finish_any};

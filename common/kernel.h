@@ -1,12 +1,14 @@
-/* The hot loop: contact forces of a list of contacts, then their sums by
-   sphere. The same source, kernel.c, is compiled for several instruction sets;
+/* The hot loop: contact forces of a list of contacts, added up by sphere. The
+   same source, kernel.c, is compiled for several instruction sets;
    kernel_select gives the best that this machine has. Internal to
    dynamics.c.
 
-   A state row is {x, y, z, vx, vy, vz[, wx, wy, wz]}, one row a sphere. Every
-   contact is evaluated once and its result kept in a row of its own; each
-   sphere then adds up its rows in a fixed order, so the sums have the same
-   bits for any number of threads. */
+   A state row is {x, y, z, vx, vy, vz[, wx, wy, wz]}, one row a sphere. A pair
+   is evaluated once and added to both its spheres, in the order of the list:
+   first what a sphere gets as second partner, then as first, then from walls.
+   That order does not depend on who computes it, so a range of rows can be
+   given to a thread together with every pair that touches it, and the sums
+   have the same bits for any number of threads. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -29,25 +31,37 @@ struct kernel_data {
   size_t stride; /* doubles in a state row: 6, or 9 with spin */
   const double *radius, *mass;
   const struct wall *walls;
-  /* contacts: pairs (i, j), then spheres wall_sphere against walls wall_id */
+  /* contacts: pairs i < j, then spheres wall_sphere against walls wall_id;
+     first[i] and wall_first[i] begin sphere i's */
   size_t pairs, wall_contacts;
   const uint32_t *i, *j;
   const uint32_t *wall_sphere, *wall_id;
-  /* a sphere's contacts: as first partner, as second, with walls */
-  const size_t *first, *second_first, *wall_first;
-  const uint32_t *second;
-  double *rows; /* contacts x width: force and, with spin, torque / -r */
-  size_t width; /* doubles in a result row: 4, or 8 with spin */
+  const size_t *first, *wall_first;
+  /* sums by row, KERNEL_SUM doubles each: force, 0, sum of n x friction, 0;
+     zero between evaluations */
+  double *sums;
+};
+
+enum { KERNEL_SUM = 8 };
+
+/* Rows [from, to). */
+struct kernel_rows {
+  size_t from, to;
 };
 
 struct kernel {
   const char *name; /* of the instruction set */
-  /* Evaluates contacts [from, to) into their rows. */
-  void (*contacts)(const struct kernel_data *k, const double *y, size_t from,
-                   size_t to);
-  /* Sums rows into dydt for spheres [from, to); false if not all finite. */
-  bool (*gather)(const struct kernel_data *k, const double *y, double *dydt,
-                 size_t from, size_t to);
+  /* Adds count pairs to the sums of those partners that are among the rows. */
+  void (*add_pairs)(const struct kernel_data *k, const double *y,
+                    const uint32_t *i, const uint32_t *j, size_t count,
+                    struct kernel_rows rows);
+  /* Adds the rows' contacts with walls. */
+  void (*add_walls)(const struct kernel_data *k, const double *y,
+                    struct kernel_rows rows);
+  /* Turns the rows' sums into rates and zeroes them; false if not all rates
+     are finite. */
+  bool (*finish)(const struct kernel_data *k, const double *y, double *dydt,
+                 struct kernel_rows rows);
 };
 
 const struct kernel *kernel_select(void);
