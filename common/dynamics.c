@@ -22,11 +22,12 @@ struct dynamics {
   struct neighbors near;
   size_t *wall_first;              /* n + 1 */
   uint32_t *wall_sphere, *wall_id; /* room for n * walls */
-  double *sums;                    /* of forces, by row */
-  /* Thread p has rows [part[p], part[p+1]). Pairs with one partner in an
-     earlier part are computed there and here: incoming[p] to incoming[p+1],
-     ascending. */
-  size_t *part, *incoming;
+  /* One part a thread. Pairs with one partner in an earlier part are computed
+     there and here: incoming[p] to incoming[p+1], ascending. */
+  struct kernel_part *part;
+  double *sums; /* of all parts */
+  size_t sums_size;
+  size_t *incoming;
   uint32_t *in_i, *in_j;
   size_t incoming_size;
   /* The list holds for states within skin/2 of reference, 3n. */
@@ -127,12 +128,11 @@ struct dynamics *dynamics_alloc(const struct scene *s, const struct bed *b,
   d->wall_first = allocate((n + 1) * sizeof(size_t));
   d->wall_sphere = allocate(room * sizeof(uint32_t));
   d->wall_id = allocate(room * sizeof(uint32_t));
-  d->part = allocate(parts * sizeof(size_t));
+  d->part = allocate(parts * sizeof *d->part);
   d->incoming = allocate(parts * sizeof(size_t));
-  d->sums = allocate(n * KERNEL_SUM * sizeof(double));
   d->reference = allocate(3 * n * sizeof(double));
   if (!d->walls || !d->order || !d->radius || !d->mass || !d->wall_first ||
-      !d->wall_sphere || !d->wall_id || !d->part || !d->incoming || !d->sums ||
+      !d->wall_sphere || !d->wall_id || !d->part || !d->incoming ||
       !d->reference ||
       find_order(d, b, 2 * b->r[0] + s->law.lmax) != GSL_SUCCESS) {
     dynamics_free(d);
@@ -162,8 +162,7 @@ struct dynamics *dynamics_alloc(const struct scene *s, const struct bed *b,
       .walls = d->walls,
       .wall_first = d->wall_first,
       .wall_sphere = d->wall_sphere,
-      .wall_id = d->wall_id,
-      .sums = d->sums};
+      .wall_id = d->wall_id};
   d->k.stride = d->k.has.rotation ? 9 : 6;
   d->age = SIZE_MAX; /* no list yet */
   return d;
@@ -253,14 +252,42 @@ static void split_rows(struct dynamics *d) {
     const double until = all * (double)p / (double)threads;
     while (row < d->n && (double)(first[row] + wall_first[row] + row) < until)
       row++;
-    d->part[p] = row;
+    d->part[p].from = row;
+    if (p)
+      d->part[p - 1].to = row;
   }
-  d->part[threads] = d->n;
+  d->part[threads - 1].to = d->n;
+}
+
+/* Rows that a part finishes at a time. */
+enum { ROWS = 64 };
+
+/* Room for the sums in flight: a chunk of rows and their furthest partner. */
+static int reserve_sums(struct dynamics *d) {
+  const struct neighbors *near = &d->near;
+  const size_t threads = (size_t)d->options.threads;
+  size_t span = 0, rows = 1;
+  for (size_t p = 0; p < near->count; p++)
+    span = GSL_MAX(span, (size_t)(near->j[p] - near->i[p]));
+  while (rows < span + 2 * ROWS)
+    rows *= 2;
+  if (rows > d->sums_size) {
+    free(d->sums);
+    d->sums = allocate(threads * rows * KERNEL_SUM * sizeof *d->sums);
+    d->sums_size = d->sums ? rows : 0;
+    if (!d->sums)
+      return GSL_ENOMEM;
+  }
+  for (size_t p = 0; p < threads; p++) {
+    d->part[p].sums = d->sums + p * d->sums_size * KERNEL_SUM;
+    d->part[p].mask = d->sums_size - 1;
+  }
+  return GSL_SUCCESS;
 }
 
 static size_t part_of(const struct dynamics *d, size_t row) {
   size_t p = 0;
-  while (row >= d->part[p + 1])
+  while (row >= d->part[p].to)
     p++;
   return p;
 }
@@ -275,10 +302,10 @@ static int list_incoming(struct dynamics *d) {
   for (int pass = 0; pass < 2; pass++) { /* count, then fill */
     size_t p = 0;
     for (size_t i = 0; i < d->n; i++) {
-      while (i >= d->part[p + 1])
+      while (i >= d->part[p].to)
         p++;
       for (size_t q = near->first[i]; q < near->first[i + 1]; q++)
-        if (near->j[q] >= d->part[p + 1]) {
+        if (near->j[q] >= d->part[p].to) {
           size_t *end = &d->incoming[part_of(d, near->j[q]) + (pass == 0)];
           if (pass) {
             d->in_i[*end] = near->i[q];
@@ -319,6 +346,8 @@ static int build_list(struct dynamics *d, const double *y) {
     split_rows(d);
     status = list_incoming(d);
   }
+  if (status == GSL_SUCCESS)
+    status = reserve_sums(d);
   if (status != GSL_SUCCESS)
     return status == GSL_EINVAL ? GSL_EBADFUNC : status;
   for (size_t i = 0; i < d->n; i++)
@@ -370,19 +399,18 @@ static bool evaluate_all_pairs(struct dynamics *d, const double *y,
    pairs as second partner belong to rows before it. */
 static bool evaluate_part(const struct dynamics *d, size_t p, const double *y,
                           double *dydt) {
-  enum { ROWS = 64 };
   const struct kernel *kernel = d->kernel;
   const struct kernel_data *k = &d->k;
-  const struct kernel_rows part = {d->part[p], d->part[p + 1]};
+  const struct kernel_part *part = &d->part[p];
   kernel->add_pairs(k, y, d->in_i + d->incoming[p], d->in_j + d->incoming[p],
                     d->incoming[p + 1] - d->incoming[p], part);
   bool finite = true;
-  for (size_t i = part.from; i < part.to; i += ROWS) {
-    const struct kernel_rows some = {i, GSL_MIN(i + ROWS, part.to)};
-    const size_t from = k->first[i], to = k->first[some.to];
+  for (size_t i = part->from; i < part->to; i += ROWS) {
+    const size_t end = GSL_MIN(i + ROWS, part->to);
+    const size_t from = k->first[i], to = k->first[end];
     kernel->add_pairs(k, y, k->i + from, k->j + from, to - from, part);
-    kernel->add_walls(k, y, some);
-    finite = kernel->finish(k, y, dydt, some) && finite;
+    kernel->add_walls(k, y, i, end, part);
+    finite = kernel->finish(k, y, dydt, i, end, part) && finite;
   }
   return finite;
 }

@@ -268,19 +268,23 @@ INLINE void unload_four(const struct block *b, size_t c, vec4 f[4], vec4 t[4],
   }
 }
 
-INLINE bool within(struct kernel_rows rows, size_t i) {
-  return i >= rows.from && i < rows.to;
+INLINE double *sum_of(const struct kernel_part *part, size_t i) {
+  return part->sums + (i & part->mask) * KERNEL_SUM;
+}
+
+INLINE bool within(const struct kernel_part *part, size_t i) {
+  return i >= part->from && i < part->to;
 }
 
 /* As second partner the force is reversed, the torque is not. The first
    partner's sum stays in registers over its run of pairs. */
-INLINE void scatter_pairs(const struct kernel_data *k, const struct block *b,
-                          const uint32_t *i, const uint32_t *j, size_t count,
-                          struct kernel_rows rows,
+INLINE void scatter_pairs(const struct block *b, const uint32_t *i,
+                          const uint32_t *j, size_t count,
+                          const struct kernel_part *part,
                           const struct kernel_features has) {
   size_t owner = i[0];
-  double *sum = k->sums + owner * KERNEL_SUM;
-  bool ours = within(rows, owner);
+  double *sum = sum_of(part, owner);
+  bool ours = within(part, owner);
   vec4 own_f = {0}, own_t = {0};
   if (ours) {
     own_f = vec4_load(sum);
@@ -297,8 +301,8 @@ INLINE void scatter_pairs(const struct kernel_data *k, const struct block *b,
             vec4_store(own_t, sum + 4);
         }
         owner = i[c + l];
-        sum = k->sums + owner * KERNEL_SUM;
-        ours = within(rows, owner);
+        sum = sum_of(part, owner);
+        ours = within(part, owner);
         if (ours) {
           own_f = vec4_load(sum);
           own_t = vec4_load(sum + 4);
@@ -307,8 +311,8 @@ INLINE void scatter_pairs(const struct kernel_data *k, const struct block *b,
       own_f += f[l];
       if (has.rotation)
         own_t += t[l];
-      if (within(rows, j[c + l])) {
-        double *other = k->sums + j[c + l] * KERNEL_SUM;
+      if (within(part, j[c + l])) {
+        double *other = sum_of(part, j[c + l]);
         vec4_store(vec4_load(other) - f[l], other);
         if (has.rotation)
           vec4_store(vec4_load(other + 4) + t[l], other + 4);
@@ -324,7 +328,7 @@ INLINE void scatter_pairs(const struct kernel_data *k, const struct block *b,
 
 INLINE void add_pairs(const struct kernel_data *k, const double *y,
                       const uint32_t *i, const uint32_t *j, size_t count,
-                      struct kernel_rows rows,
+                      const struct kernel_part *part,
                       const struct kernel_features has) {
   struct block b;
   for (size_t from = 0; from < count; from += BLOCK) {
@@ -333,21 +337,21 @@ INLINE void add_pairs(const struct kernel_data *k, const double *y,
     const size_t padded = pad(&b, some);
     normalise(k, padded, &b, has);
     evaluate(&k->law, padded, &b, has);
-    scatter_pairs(k, &b, i + from, j + from, some, rows, has);
+    scatter_pairs(&b, i + from, j + from, some, part, has);
   }
 }
 
-INLINE void add_walls(const struct kernel_data *k, const double *y,
-                      struct kernel_rows rows,
+INLINE void add_walls(const struct kernel_data *k, const double *y, size_t from,
+                      size_t to, const struct kernel_part *part,
                       const struct kernel_features has) {
   struct block b;
-  const size_t end = k->wall_first[rows.to];
-  for (size_t from = k->wall_first[rows.from]; from < end; from += BLOCK) {
-    const size_t some = end - from < BLOCK ? end - from : BLOCK;
-    load_walls(k, y, from, some, &b, has);
+  const size_t end = k->wall_first[to];
+  for (size_t w = k->wall_first[from]; w < end; w += BLOCK) {
+    const size_t some = end - w < BLOCK ? end - w : BLOCK;
+    load_walls(k, y, w, some, &b, has);
     evaluate(&k->law, pad(&b, some), &b, has);
     for (size_t c = 0; c < some; c++) {
-      double *sum = k->sums + k->wall_sphere[from + c] * KERNEL_SUM;
+      double *sum = sum_of(part, k->wall_sphere[w + c]);
       sum[0] += b.fx[c];
       sum[1] += b.fy[c];
       sum[2] += b.fz[c];
@@ -362,12 +366,13 @@ INLINE void add_walls(const struct kernel_data *k, const double *y,
 
 /* (2.13)-(2.15): torque = -r n x f, I = 2 m r^2 / 5 */
 INLINE bool finish(const struct kernel_data *k, const double *y, double *dydt,
-                   struct kernel_rows rows, const struct kernel_features has) {
+                   size_t from, size_t to, const struct kernel_part *part,
+                   const struct kernel_features has) {
   const size_t stride = has.rotation ? 9 : 6;
   double checksum = 0;
-  for (size_t i = rows.from; i < rows.to; i++) {
+  for (size_t i = from; i < to; i++) {
     const double *state = y + i * stride;
-    double *rate = dydt + i * stride, *sum = k->sums + i * KERNEL_SUM;
+    double *rate = dydt + i * stride, *sum = sum_of(part, i);
     const double inverse_mass = 1 / k->mass[i];
     for (int c = 0; c < 3; c++) {
       rate[c] = state[3 + c];
@@ -412,24 +417,28 @@ INLINE bool finish(const struct kernel_data *k, const double *y, double *dydt,
 
 static void add_pairs_any(const struct kernel_data *k, const double *y,
                           const uint32_t *i, const uint32_t *j, size_t count,
-                          struct kernel_rows rows) {
-#define CALL(has) add_pairs(k, y, i, j, count, rows, has)
+                          const struct kernel_part *part) {
+#define CALL(has) add_pairs(k, y, i, j, count, part, has)
   DISPATCH(CALL);
 #undef CALL
 }
 
 static void add_walls_any(const struct kernel_data *k, const double *y,
-                          struct kernel_rows rows) {
-#define CALL(has) add_walls(k, y, rows, has)
+                          size_t from, size_t to,
+                          const struct kernel_part *part) {
+#define CALL(has) add_walls(k, y, from, to, part, has)
   DISPATCH(CALL);
 #undef CALL
 }
 
 static bool finish_any(const struct kernel_data *k, const double *y,
-                       double *dydt, struct kernel_rows rows) {
+                       double *dydt, size_t from, size_t to,
+                       const struct kernel_part *part) {
+  struct kernel_features has = {.rotation = true};
   if (k->has.rotation)
-    return finish(k, y, dydt, rows, (struct kernel_features){.rotation = true});
-  return finish(k, y, dydt, rows, (struct kernel_features){0});
+    return finish(k, y, dydt, from, to, part, has);
+  has.rotation = false;
+  return finish(k, y, dydt, from, to, part, has);
 }
 
 extern const struct kernel JOIN(kernel_, KERNEL_ISA);

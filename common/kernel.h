@@ -37,31 +37,33 @@ struct kernel_data {
   const uint32_t *i, *j;
   const uint32_t *wall_sphere, *wall_id;
   const size_t *first, *wall_first;
-  /* sums by row, KERNEL_SUM doubles each: force, 0, sum of n x friction, 0;
-     zero between evaluations */
+};
+
+/* Rows [from, to) that one thread computes, and its sums: KERNEL_SUM doubles a
+   row (force, 0, sum of n x friction, 0), zero between evaluations. Row i's is
+   number i & mask: only the rows from the one being finished to its furthest
+   partner are in flight, and those stay in the cache. */
+struct kernel_part {
+  size_t from, to;
   double *sums;
+  size_t mask; /* a power of two less one */
 };
 
 enum { KERNEL_SUM = 8 };
 
-/* Rows [from, to). */
-struct kernel_rows {
-  size_t from, to;
-};
-
 struct kernel {
   const char *name; /* of the instruction set */
-  /* Adds count pairs to the sums of those partners that are among the rows. */
+  /* Adds count pairs to the sums of those partners that are in the part. */
   void (*add_pairs)(const struct kernel_data *k, const double *y,
                     const uint32_t *i, const uint32_t *j, size_t count,
-                    struct kernel_rows rows);
-  /* Adds the rows' contacts with walls. */
-  void (*add_walls)(const struct kernel_data *k, const double *y,
-                    struct kernel_rows rows);
-  /* Turns the rows' sums into rates and zeroes them; false if not all rates
-     are finite. */
+                    const struct kernel_part *part);
+  /* Adds the contacts of rows [from, to) with walls. */
+  void (*add_walls)(const struct kernel_data *k, const double *y, size_t from,
+                    size_t to, const struct kernel_part *part);
+  /* Turns the sums of rows [from, to) into rates and zeroes them; false if not
+     all rates are finite. */
   bool (*finish)(const struct kernel_data *k, const double *y, double *dydt,
-                 struct kernel_rows rows);
+                 size_t from, size_t to, const struct kernel_part *part);
 };
 
 const struct kernel *kernel_select(void);
