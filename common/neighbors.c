@@ -3,11 +3,14 @@
 #include <math.h>
 #include <stdlib.h>
 #include <gsl/gsl_errno.h>
+#include <gsl/gsl_sort.h>
+#include <gsl/gsl_statistics.h>
 
 /* A grid of cells no smaller than the reach of a sphere, so that partners are
    in the 27 cells around. Spheres are held cell by cell in counting-sort
-   order. A far-flung sphere must not cost memory: the number of cells is
-   bounded by that of spheres and the cells grow instead. */
+   order. Far-flung spheres must cost neither memory nor time: the number of
+   cells is bounded by that of spheres, and where it would be more the grid
+   spans the bulk of them only. */
 struct grid {
   double low[3], cell[3];
   size_t dim[3];
@@ -16,7 +19,8 @@ struct grid {
 static size_t cell_coordinate(const struct grid *g, int k, double x) {
   const double c = (x - g->low[k]) / g->cell[k];
   const size_t last = g->dim[k] - 1;
-  return c <= 0 ? 0 : c >= (double)last ? last : (size_t)c;
+  /* an extent that overflowed makes c a NaN; any cell will do for it */
+  return !(c > 0) ? 0 : c >= (double)last ? last : (size_t)c;
 }
 
 static size_t cell_index(const struct grid *g, size_t cx, size_t cy,
@@ -24,9 +28,36 @@ static size_t cell_index(const struct grid *g, size_t cx, size_t cy,
   return (cx * g->dim[1] + cy) * g->dim[2] + cz;
 }
 
+/* Numbers of cells no smaller than edge between low and high; their product. */
+static double grid_dimensions(const struct grid *g, const double high[3],
+                              double edge, double dim[3]) {
+  for (int k = 0; k < 3; k++)
+    dim[k] = fmin(fmax(1, floor((high[k] - g->low[k]) / edge)), 1e9);
+  return dim[0] * dim[1] * dim[2];
+}
+
+/* The range of all but the outermost 2 % on either side. Spheres outside go
+   into the cells at the border, which keeps neighbours in cells next to each
+   other. */
+static int trim(size_t n, const double *x, size_t stride, struct grid *g,
+                double high[3]) {
+  double *sorted = malloc(n * sizeof *sorted);
+  if (!sorted)
+    return GSL_ENOMEM;
+  for (int k = 0; k < 3; k++) {
+    for (size_t i = 0; i < n; i++)
+      sorted[i] = x[i * stride + k];
+    gsl_sort(sorted, 1, n);
+    g->low[k] = gsl_stats_quantile_from_sorted_data(sorted, 1, n, 0.02);
+    high[k] = gsl_stats_quantile_from_sorted_data(sorted, 1, n, 0.98);
+  }
+  free(sorted);
+  return GSL_SUCCESS;
+}
+
 static int grid_fit(struct grid *g, size_t n, const double *x, size_t stride,
                     double edge) {
-  double high[3];
+  double high[3], dim[3];
   for (int k = 0; k < 3; k++)
     g->low[k] = high[k] = x[k];
   for (size_t i = 0; i < n; i++)
@@ -38,9 +69,11 @@ static int grid_fit(struct grid *g, size_t n, const double *x, size_t stride,
       high[k] = fmax(high[k], c);
     }
   const double most = 2.0 * (double)n + 64;
-  double dim[3];
-  for (int k = 0; k < 3; k++)
-    dim[k] = fmax(1, floor((high[k] - g->low[k]) / edge));
+  if (grid_dimensions(g, high, edge, dim) > most) {
+    if (trim(n, x, stride, g, high) != GSL_SUCCESS)
+      return GSL_ENOMEM;
+    grid_dimensions(g, high, edge, dim);
+  }
   while (dim[0] * dim[1] * dim[2] > most) {
     int widest = 0;
     for (int k = 1; k < 3; k++)
@@ -142,8 +175,9 @@ int neighbors_find(struct neighbors *nb, size_t n, const double *x,
   }
   struct grid g;
   const double edge = 2 * largest + reach;
-  if (grid_fit(&g, n, x, stride, edge > 0 ? edge : 1) != GSL_SUCCESS)
-    return GSL_EINVAL;
+  const int status = grid_fit(&g, n, x, stride, edge > 0 ? edge : 1);
+  if (status != GSL_SUCCESS)
+    return status;
 
   /* scratch: start of each cell (cells + 1), members and cells of spheres */
   const size_t cells = g.dim[0] * g.dim[1] * g.dim[2];
