@@ -64,12 +64,12 @@ bool allpairs_rates(const struct kernel_data *k, size_t walls, size_t n,
     for (int c = 0; c < 3; c++) {
       rate[c] = p[3 + c];
       rate[3 + c] = k->gravity[c] + force[c] / k->mass[i];
-      checksum += rate[c] + rate[3 + c];
+      checksum += rate[c] + rate[3 + c] + 0 * p[c];
     }
     if (spin)
       for (int c = 0; c < 3; c++) {
         rate[6 + c] = -2.5 * torque[c] / (k->mass[i] * ri);
-        checksum += rate[6 + c];
+        checksum += rate[6 + c] + 0 * p[6 + c]; /* free spins too */
       }
   }
   return isfinite(checksum);

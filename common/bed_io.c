@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <gsl/gsl_errno.h>
+#include "options.h"
 
 /* Header */
 
@@ -198,7 +199,9 @@ static int read_row(struct bed_reader *r, char *line) {
   for (int c = 0; c < COLUMNS; c++)
     row[c] = 0;
   row[ID] = (double)r->rows_count;
-  row[R] = radius ? strtod(radius, NULL) : default_radius;
+  row[R] = default_radius;
+  if (radius && !parse_double(radius, &row[R]))
+    return fail(r, "radius=%.40s: expected a number above 0", radius);
   row[M] = 1;
   char *at = line;
   for (size_t k = 0; k < r->columns_count; k++) {
@@ -257,14 +260,12 @@ static int finish_frame(struct bed_reader *r, struct bed *b) {
     b->m[i] = row[M];
   }
   const char *t = bed_header_get(&r->header, "t");
-  char *end = "";
-  b->t = t ? strtod(t, &end) : 0;
+  const bool good = !t || parse_double(t, &b->t);
   r->rows_count = 0;
   r->frames++;
   r->walls_stale = true;
-  int status = *end || !isfinite(b->t)
-                   ? fail(r, "t=%s: expected a finite number", t)
-                   : check_ids(r, b);
+  int status =
+      good ? check_ids(r, b) : fail(r, "t=%.40s: expected a finite number", t);
   if (status != GSL_SUCCESS)
     bed_free(b);
   return status;

@@ -33,7 +33,7 @@ static int adjust(void *state, size_t dim, unsigned order, const double y[],
   double error = 0;
   for (size_t i = 0; i < dim; i++) {
     const double e = fabs(yerr[i]);
-    if (!(e <= error)) /* so that a NaN is kept */
+    if (!(e <= error) && !isnan(error)) /* a NaN comes in and stays */
       error = e;
   }
   error *= 3 / *h;
@@ -116,7 +116,7 @@ static int predictive_adjust(void *state, size_t dim, unsigned order,
   for (size_t i = 0; i < dim; i++) {
     const double e =
         fabs(yerr[i]) / (p->abstol * p->scale[i] + p->reltol * fabs(y[i]));
-    if (!(e <= error)) /* so that a NaN is kept */
+    if (!(e <= error) && !isnan(error)) /* a NaN comes in and stays */
       error = e;
   }
   const double power = 1. / (order + 1);

@@ -448,9 +448,15 @@ int dynamics_jacobian(double t, const double y[], double *dfdy, double dfdt[],
   const int status = update_list(d, y);
   if (status != GSL_SUCCESS)
     return status;
-  memset(dfdt, 0, dynamics_dimension(d) * sizeof *dfdt);
+  const size_t dim = dynamics_dimension(d);
+  memset(dfdt, 0, dim * sizeof *dfdt);
   jacobian_dense(&d->k, d->n, y, dfdy);
-  return GSL_SUCCESS;
+  double checksum = 0; /* 0 times a number that is not finite is NaN */
+  for (size_t i = 0; i < dim; i++)
+    checksum += 0 * y[i];
+  for (size_t i = 0; i < dim * dim; i++)
+    checksum += 0 * dfdy[i];
+  return checksum == 0 ? GSL_SUCCESS : GSL_EBADFUNC;
 }
 
 double dynamics_step_limit(const struct dynamics *d, const double y[],

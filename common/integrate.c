@@ -28,6 +28,9 @@ struct integrator {
   double hmax, fixed;
   double t, h, last_step;
   struct integrate_counts counts;
+  /* The last step from start to y, for the interpolation; a failed attempt
+     overwrites what evolve has of it. */
+  double *start, *start_rate, *rate;
   double y[];
 };
 
@@ -71,20 +74,37 @@ void integrate_free(struct integrator *it) {
   free(it);
 }
 
+static bool options_fit(const struct integrate_options *o,
+                        const struct integrate_problem *p,
+                        const gsl_odeiv2_step_type *type) {
+  const bool fixed = o->step > 0;
+  if (type == verlet)
+    return fixed && p->positions > 0 && 2 * p->positions <= p->row &&
+           p->system.dimension % p->row == 0;
+  if (type == gsl_odeiv2_step_msbdf && (fixed || !p->system.jacobian))
+    return false;
+  if (fixed)
+    return true;
+  bool known = false;
+  for (size_t i = 0; o->control && integrate_controls[i]; i++)
+    known = known || !strcmp(o->control, integrate_controls[i]);
+  return known && o->hinit > 0 && o->reltol >= 0 &&
+         (o->tol > 0 || (o->abstol > 0 && strcmp(o->control, "paper")));
+}
+
 int integrate_alloc(struct integrator **out, const struct integrate_options *o,
                     const struct integrate_problem *problem, double t,
                     const double y[]) {
   const size_t dim = problem->system.dimension;
   const gsl_odeiv2_step_type *type = find_method(o->method);
-  bool known = false;
-  for (size_t i = 0; integrate_controls[i]; i++)
-    known = known || !strcmp(o->control, integrate_controls[i]);
-  if (!type || !known || !(o->step > 0 || o->hinit > 0) ||
-      (type == verlet && !(o->step > 0 && problem->positions > 0)))
+  if (!type || !options_fit(o, problem, type))
     return GSL_EINVAL;
-  struct integrator *it = calloc(1, sizeof *it + dim * sizeof *y);
+  struct integrator *it = calloc(1, sizeof *it + 4 * dim * sizeof *y);
   if (!it)
     return GSL_ENOMEM;
+  it->start = it->y + dim;
+  it->start_rate = it->start + dim;
+  it->rate = it->start_rate + dim;
   it->system = problem->system;
   it->step_limit = problem->step_limit;
   it->hmax = o->hmax > 0 ? o->hmax : GSL_POSINF;
@@ -109,19 +129,23 @@ int integrate_alloc(struct integrator **out, const struct integrate_options *o,
   return GSL_SUCCESS;
 }
 
-/* One attempt at an accepted step of at most h; a right-hand side that is not
-   finite ends it at once. */
+/* One attempt at an accepted step of at most h; on failure time and state are
+   those before it. */
 static int attempt(struct integrator *it, double *h) {
   gsl_odeiv2_evolve *e = it->evolve;
   const double t = it->t;
   const unsigned long failed = e->failed_steps;
   /* not apply_fixed_step, which evaluates the start of every step anew */
-  const int status = gsl_odeiv2_evolve_apply(
-      e, it->control, it->step, &it->system, &it->t, GSL_DBL_MAX, h, it->y);
+  int status = gsl_odeiv2_evolve_apply(e, it->control, it->step, &it->system,
+                                       &it->t, GSL_DBL_MAX, h, it->y);
   it->counts.rejected += e->failed_steps - failed;
+  /* evolve shortens a fixed step that fails, and takes steps too short to move
+     the time */
+  if (status == GSL_SUCCESS &&
+      (!(it->t > t) || (it->fixed > 0 && e->last_step != it->fixed)))
+    status = GSL_FAILURE;
   if (status != GSL_SUCCESS) {
-    if (status == GSL_FAILURE && e->count > 0) /* y holds the rejected trial */
-      memcpy(it->y, e->y0, it->system.dimension * sizeof *it->y);
+    memcpy(it->y, e->y0, it->system.dimension * sizeof *it->y);
     it->t = t;
     /* what evolve would take for the derivative may be half written */
     gsl_odeiv2_evolve_reset(e);
@@ -130,32 +154,46 @@ static int attempt(struct integrator *it, double *h) {
   return status;
 }
 
-int integrate_step(struct integrator *it) {
-  double h = it->fixed > 0 ? it->fixed : GSL_MIN(it->h, it->hmax);
-  if (it->step_limit && !(it->fixed > 0)) {
-    const gsl_odeiv2_evolve *e = it->evolve;
-    if (e->count == 0) { /* evolve has not evaluated it yet */
-      const int status =
-          GSL_ODEIV_FN_EVAL(&it->system, it->t, it->y, e->dydt_out);
-      if (status != GSL_SUCCESS)
-        return status;
-    }
-    h = GSL_MIN(h, it->step_limit(it->y, e->dydt_out, it->system.params));
+/* The step to try first. */
+static int first_trial(struct integrator *it, double *h) {
+  gsl_odeiv2_evolve *e = it->evolve;
+  *h = it->fixed > 0 ? it->fixed : GSL_MIN(it->h, it->hmax);
+  if (!it->step_limit || it->fixed > 0)
+    return GSL_SUCCESS;
+  if (e->count == 0) { /* evolve has not evaluated it yet */
+    const int status =
+        GSL_ODEIV_FN_EVAL(&it->system, it->t, it->y, e->dydt_out);
+    if (status != GSL_SUCCESS)
+      return status;
   }
+  *h = GSL_MIN(*h, it->step_limit(it->y, e->dydt_out, it->system.params));
+  return GSL_SUCCESS;
+}
+
+int integrate_step(struct integrator *it) {
+  const gsl_odeiv2_evolve *e = it->evolve;
+  const size_t bytes = it->system.dimension * sizeof *it->y;
   const double start = it->t;
   /* Below this a step no longer moves t. */
   const double smallest = 4 * GSL_DBL_EPSILON * GSL_MAX(fabs(start), 1e-3);
-  int status = attempt(it, &h);
-  while (status == GSL_EBADFUNC && !(it->fixed > 0) && h > smallest) {
-    it->counts.rejected++;
-    h /= 4;
+  double h;
+  int status = first_trial(it, &h);
+  if (status == GSL_SUCCESS) {
     status = attempt(it, &h);
+    while (status == GSL_EBADFUNC && !(it->fixed > 0) && h > smallest) {
+      it->counts.rejected++;
+      h /= 4;
+      status = attempt(it, &h);
+    }
   }
   if (status != GSL_SUCCESS)
     return status == GSL_EBADFUNC ? GSL_FAILURE : status;
   it->counts.accepted++;
   it->last_step = it->t - start;
   it->h = h;
+  memcpy(it->start, e->y0, bytes);
+  memcpy(it->start_rate, e->dydt_in, bytes);
+  memcpy(it->rate, e->dydt_out, bytes);
   return GSL_SUCCESS;
 }
 
@@ -176,27 +214,24 @@ struct integrate_counts integrate_counts(const struct integrator *it) {
 }
 
 const double *integrate_derivative(const struct integrator *it) {
-  return it->evolve->dydt_out;
+  return it->rate;
 }
 
 int integrate_at(const struct integrator *it, double t, double y[]) {
   const size_t dim = it->system.dimension;
   const double h = it->last_step;
-  if (h == 0 || t == it->t) {
-    if (t != it->t)
-      return GSL_EDOM;
+  if (t == it->t) {
     memcpy(y, it->y, dim * sizeof *y);
     return GSL_SUCCESS;
   }
   const double s = (t - (it->t - h)) / h;
-  if (!(s >= -1e-9 && s <= 1 + 1e-9))
+  if (!(h > 0 && s >= -1e-9 && s <= 1 + 1e-9))
     return GSL_EDOM;
-  const gsl_odeiv2_evolve *e = it->evolve;
   /* Hermite basis: 1 - w and w for values, p and q for slopes */
   const double w = s * s * (3 - 2 * s);
   const double p = h * s * (1 - s) * (1 - s), q = -h * s * s * (1 - s);
   for (size_t i = 0; i < dim; i++)
-    y[i] = e->y0[i] + w * (it->y[i] - e->y0[i]) + p * e->dydt_in[i] +
-           q * e->dydt_out[i];
+    y[i] = it->start[i] + w * (it->y[i] - it->start[i]) +
+           p * it->start_rate[i] + q * it->rate[i];
   return GSL_SUCCESS;
 }

@@ -383,7 +383,7 @@ INLINE bool finish(const struct kernel_data *k, const double *y, double *dydt,
       const double scale = -2.5 * inverse_mass / k->radius[i];
       for (int c = 0; c < 3; c++) {
         rate[6 + c] = scale * sum[4 + c];
-        checksum += rate[6 + c];
+        checksum += rate[6 + c] + 0 * state[6 + c]; /* free spins too */
       }
     }
     for (int c = 0; c < KERNEL_SUM; c++)

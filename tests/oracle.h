@@ -150,7 +150,9 @@ static inline void oracle_rates(const struct scene *s, const struct bed *b,
     }
     for (int k = 0; k < 3; k++) {
       a[3 * i + k] = force[k] / b->m[i] + s->gravity[k];
-      alpha[3 * i + k] = torque[k] / (0.4 * b->m[i] * b->r[i] * b->r[i]);
+      alpha[3 * i + k] = s->model == SCENE_ROTATION
+                             ? torque[k] / (0.4 * b->m[i] * b->r[i] * b->r[i])
+                             : 0;
     }
   }
 }
