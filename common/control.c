@@ -38,7 +38,7 @@ static int adjust(void *state, size_t dim, unsigned order, const double y[],
   }
   error *= 3 / *h;
   const bool accepted = error < delta || *h < smallest_step;
-  const double factor = error > 0 ? 0.8 * pow(delta / error, 0.2) : 2;
+  const double factor = error == 0 ? 2 : 0.8 * pow(delta / error, 0.2);
   *h *= isfinite(factor) && factor > 0 ? factor : 0.1;
   if (!accepted)
     return GSL_ODEIV_HADJ_DEC;

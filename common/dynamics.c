@@ -470,6 +470,15 @@ double dynamics_step_limit(const struct dynamics *d, const double y[],
   return 2 * travel / fastest;
 }
 
+void dynamics_scale(const struct dynamics *d, double scale[]) {
+  const size_t stride = d->k.stride;
+  for (size_t i = 0; i < d->n; i++)
+    for (size_t c = 0; c < stride; c++)
+      scale[i * stride + c] = c < 3   ? 1 / d->k.law.kappa
+                              : c < 6 ? 1
+                                      : 1 / d->radius[i];
+}
+
 double dynamics_kinetic(const struct dynamics *d, const double y[]) {
   double sum = 0;
   for (size_t i = 0; i < d->n; i++) {

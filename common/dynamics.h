@@ -56,6 +56,10 @@ int dynamics_jacobian(double t, const double y[], double *dfdy, double dfdt[],
 double dynamics_step_limit(const struct dynamics *d, const double y[],
                            const double dydt[], double travel);
 
+/* What errors of the unknowns are measured in: gaps in 1/kappa, velocities in
+   m/s, spins in m/s of the surface. dimension doubles. */
+void dynamics_scale(const struct dynamics *d, double scale[]);
+
 /* Kinetic energy with that of spin, and potential energy of gravity (from the
    origin) and contacts, (J). The latter may rebuild the pair list. */
 double dynamics_kinetic(const struct dynamics *d, const double y[]);

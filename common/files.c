@@ -1,12 +1,40 @@
 #define _POSIX_C_SOURCE 200809L
 #include "files.h"
 
+#include <stdbool.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include "options.h"
+
+/* Files begun and not committed go when the program does. */
+static char *begun[8];
+
+static void remove_begun(void) {
+  for (size_t i = 0; i < sizeof begun / sizeof *begun; i++)
+    if (begun[i])
+      unlink(begun[i]);
+}
+
+static void remember(char *path) {
+  static bool registered;
+  if (!registered)
+    atexit(remove_begun);
+  registered = true;
+  for (size_t i = 0; i < sizeof begun / sizeof *begun; i++)
+    if (!begun[i]) {
+      begun[i] = path;
+      return;
+    }
+}
+
+static void forget(const char *path) {
+  for (size_t i = 0; i < sizeof begun / sizeof *begun; i++)
+    if (begun[i] == path)
+      begun[i] = NULL;
+}
 
 void output_open(struct output_file *f, const char *path) {
   struct stat st;
@@ -23,6 +51,8 @@ void output_open(struct output_file *f, const char *path) {
   }
   if (!f->stream)
     die(EXIT_IO, "%s: %s", path, strerror(errno));
+  if (f->partial)
+    remember(f->partial);
 }
 
 void output_commit(struct output_file *f) {
@@ -31,13 +61,12 @@ void output_commit(struct output_file *f) {
   int error = errno;
   if (!failed && closed == 0 &&
       (!f->partial || rename(f->partial, f->path) == 0)) {
+    forget(f->partial);
     free(f->partial);
     return;
   }
   if (!failed && closed == 0)
     error = errno;
-  if (f->partial)
-    unlink(f->partial);
   die(EXIT_IO, "%s: %s", f->path, strerror(error));
 }
 

@@ -2,6 +2,7 @@
 #include "options.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <getopt.h>
 #include <math.h>
 #include <signal.h>
@@ -9,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 #include <gsl/gsl_errno.h>
 #include "version.h"
 
@@ -240,6 +242,14 @@ int options_parse(const struct program *p, int argc, char **argv) {
   program_name = p->name;
   gsl_set_error_handler_off();
   signal(SIGPIPE, SIG_IGN);
+  /* A closed standard stream would be given to the next file opened. Read-only,
+     so that writing to it still fails. */
+  int fd;
+  do
+    fd = open("/dev/null", O_RDONLY);
+  while (fd >= 0 && fd <= STDERR_FILENO);
+  if (fd >= 0)
+    close(fd);
   size_t count = 0;
   while (p->options[count].name)
     count++;

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <time.h>
 #include <unistd.h>
 #include <gsl/gsl_errno.h>
@@ -57,17 +58,6 @@ static double step_limit(const double y[], const double dydt[], void *params) {
   return dynamics_step_limit(l->dynamics, y, dydt, l->travel);
 }
 
-/* Errors are measured in what matters to a contact: gaps in 1/kappa, speeds of
-   surfaces in m/s, so spins times radius. */
-static void fill_scale(const struct run *r, double *scale) {
-  const size_t stride = dynamics_stride(r->dynamics);
-  for (size_t i = 0; i < r->bed->n; i++)
-    for (size_t c = 0; c < stride; c++)
-      scale[i * stride + c] = c < 3   ? 1 / r->set->scene.law.kappa
-                              : c < 6 ? 1
-                                      : 1 / r->bed->r[i];
-}
-
 static void write_frame(struct run *r, const double *y, double t) {
   static const struct bed_header none = {0};
   dynamics_unpack(r->dynamics, y, r->bed);
@@ -83,7 +73,7 @@ static void write_frame(struct run *r, const double *y, double t) {
 
 static double frame_time(const struct run *r, size_t k) {
   const struct settings *s = r->set;
-  if (s->frames == 1)
+  if (k == s->frames - 1) /* exactly, whatever the rounding below */
     return s->time;
   return r->start + (s->time - r->start) * (double)k / (double)(s->frames - 1);
 }
@@ -132,31 +122,32 @@ static bool at_rest(struct run *r) {
   return t - r->moved >= rest_time;
 }
 
-static void write_stats(const struct run *r, double t_end, int status) {
-  struct output_file f;
-  output_open(&f, r->set->stats);
+static void write_stats(const struct run *r, FILE *out, double t_end,
+                        int status) {
   const struct settings *s = r->set;
   const struct integrate_counts steps = integrate_counts(r->integrator);
   const struct dynamics_counts counts = dynamics_counts(r->dynamics);
-  fprintf(f.stream, "method\t%s\n", s->integrate.method);
-  fprintf(f.stream, "control\t%s\n",
+  fprintf(out, "method\t%s\n", s->integrate.method);
+  fprintf(out, "control\t%s\n",
           s->integrate.step > 0 ? "none" : s->integrate.control);
-  fprintf(f.stream, "spheres\t%zu\n", r->bed->n);
-  fprintf(f.stream, "unknowns\t%zu\n", dynamics_dimension(r->dynamics));
-  fprintf(f.stream, "rhs_evaluations\t%zu\n", counts.evaluations);
-  fprintf(f.stream, "steps_accepted\t%zu\n", steps.accepted);
-  fprintf(f.stream, "steps_rejected\t%zu\n", steps.rejected);
-  fprintf(f.stream, "cpu_seconds\t%.6f\n",
+  fprintf(out, "spheres\t%zu\n", r->bed->n);
+  fprintf(out, "unknowns\t%zu\n", dynamics_dimension(r->dynamics));
+  fprintf(out, "rhs_evaluations\t%zu\n", counts.evaluations);
+  fprintf(out, "steps_accepted\t%zu\n", steps.accepted);
+  fprintf(out, "steps_rejected\t%zu\n", steps.rejected);
+  fprintf(out, "cpu_seconds\t%.6f\n",
           seconds(CLOCK_PROCESS_CPUTIME_ID) - r->cpu_start);
-  fprintf(f.stream, "wall_seconds\t%.6f\n",
+  fprintf(out, "wall_seconds\t%.6f\n",
           seconds(CLOCK_MONOTONIC) - r->wall_start);
-  fprintf(f.stream, "threads\t%zu\n", s->threads);
-  fprintf(f.stream, "kernel\t%s\n", dynamics_kernel(r->dynamics));
-  fprintf(f.stream, "t_end\t%.17g\n", t_end);
-  fprintf(f.stream, "pair_list_builds\t%zu\n", counts.builds);
-  fprintf(f.stream, "contacts_listed\t%zu\n", counts.contacts);
-  fprintf(f.stream, "exit_status\t%d\n", status);
-  output_commit(&f);
+  fprintf(out, "threads\t%zu\n", s->threads);
+  fprintf(out, "kernel\t%s\n", dynamics_kernel(r->dynamics));
+  fprintf(out, "t_end\t%.17g\n", t_end);
+  fprintf(out, "pair_list_builds\t%zu\n", counts.builds);
+  fprintf(out, "contacts_listed\t%zu\n", counts.contacts);
+  struct rusage usage;
+  if (getrusage(RUSAGE_SELF, &usage) == 0)
+    fprintf(out, "peak_memory_kb\t%ld\n", usage.ru_maxrss);
+  fprintf(out, "exit_status\t%d\n", status);
 }
 
 /* Steps until the end, rest or failure; the exit status and, in reason, what
@@ -213,7 +204,7 @@ int run(const struct settings *s, struct bed *b,
   if (!scale || !r.y)
     die(EXIT_IO, "out of memory");
   dynamics_pack(r.dynamics, b, r.y);
-  fill_scale(&r, scale);
+  dynamics_scale(r.dynamics, scale);
   struct limited limited = {r.dynamics, s->travel / s->scene.law.kappa};
   const struct integrate_problem problem = {
       .system = {.function = rhs,
@@ -229,7 +220,9 @@ int run(const struct settings *s, struct bed *b,
   if (status != GSL_SUCCESS)
     die(status == GSL_EINVAL ? EXIT_USAGE : EXIT_IO, "method %s: %s",
         s->integrate.method, gsl_strerror(status));
-  struct output_file log;
+  struct output_file log, stats; /* opened before hours are spent */
+  if (s->stats)
+    output_open(&stats, s->stats);
   if (s->log) {
     output_open(&log, s->log);
     r.log = log.stream;
@@ -251,8 +244,10 @@ int run(const struct settings *s, struct bed *b,
   finish_output();
   if (s->log)
     output_commit(&log);
-  if (s->stats)
-    write_stats(&r, t_end, code);
+  if (s->stats) {
+    write_stats(&r, stats.stream, t_end, code);
+    output_commit(&stats);
+  }
   integrate_free(r.integrator);
   dynamics_free(r.dynamics);
   free(scale);

@@ -110,10 +110,12 @@ static void write_header(const struct settings *s,
   }
 }
 
-static void set_gravity(struct settings *s) {
+static void set_gravity(struct settings *s, bool from_line, const char *name) {
   const struct option_list *g = &s->gravity;
-  if (g->count == 2)
+  if (g->count == 2 && from_line)
     die(EXIT_USAGE, "--gravity: expected one number or three");
+  if (g->count == 2)
+    die(EXIT_INPUT, "%s: gravity: expected one number or three", name);
   for (int k = 0; k < 3; k++)
     s->scene.gravity[k] = g->count == 3 ? g->at[k] : 0;
   if (g->count == 1)
@@ -131,7 +133,7 @@ void start_make(struct settings *s, struct option_spec *options, struct bed *b,
   s->scene.model = !strcmp(s->model, "basic")      ? SCENE_BASIC
                    : !strcmp(s->model, "friction") ? SCENE_FRICTION
                                                    : SCENE_ROTATION;
-  set_gravity(s);
+  set_gravity(s, option_find(options, "gravity")->given, name);
   const char *wrong = scene_check(&s->scene);
   if (wrong)
     die(s->scene_file ? EXIT_INPUT : EXIT_USAGE, "%s", wrong);

@@ -122,13 +122,18 @@ static bool same(const double x[], const double y[]) {
   return !memcmp(x, y, DIM * sizeof *x);
 }
 
-/* Steps to the end, each of which moves the time. */
+/* One step that moves the time, and is not one of millions: no test here needs
+   more. */
+static bool step(struct integrator *it) {
+  const double from = integrate_time(it);
+  return integrate_step(it) == GSL_SUCCESS && integrate_time(it) > from &&
+         integrate_counts(it).accepted < 1000000;
+}
+
 static bool run(struct integrator *it, double end) {
-  while (integrate_time(it) < end) {
-    const double from = integrate_time(it);
-    if (integrate_step(it) != GSL_SUCCESS || !(integrate_time(it) > from))
+  while (integrate_time(it) < end)
+    if (!step(it))
       return false;
-  }
   return true;
 }
 
@@ -430,7 +435,7 @@ static void test_counts(void) {
       size_t steps = 0;
       double t = 0;
       bool tells = true;
-      while (t < 5 && CHECK(integrate_step(it) == GSL_SUCCESS)) {
+      while (t < 5 && (step(it) || CHECK(!"a step"))) {
         steps++;
         const struct integrate_counts n = integrate_counts(it);
         double dydt[DIM];
@@ -499,7 +504,7 @@ static double interpolation_error(double h) {
   double worst = 0;
   while (integrate_time(it) < 3) {
     const double from = integrate_time(it);
-    if (!CHECK(integrate_step(it) == GSL_SUCCESS))
+    if (!step(it) && !CHECK(!"a step"))
       break;
     for (int k = 0; k <= 16; k++) {
       const double t = from + (integrate_time(it) - from) * k / 16;
@@ -632,7 +637,7 @@ static void test_limits(void) {
           const double most =
               way & 2 ? fmin(hmax, 0.01 + 0.02 * fabs(integrate_state(it)[0]))
                       : hmax;
-          if (!CHECK(integrate_step(it) == GSL_SUCCESS))
+          if (!step(it) && !CHECK(!"a step"))
             break;
           /* both are known to a rounding of t */
           const double tol = ULPS(1) * integrate_time(it);

@@ -241,7 +241,7 @@ static int one_step(const struct stepper *s, const gsl_odeiv2_system *sys,
 typedef double measure(const void *what, double *h, double *rounding);
 
 static double observed_order(measure *error, const void *what, double h0) {
-  enum { MOST = 160, WINDOW = 5 };
+  enum { MOST = 56, WINDOW = 5 }; /* h0 / 2^14 is none too small */
   double x[MOST], y[MOST];
   int n = 0;
   for (; n < MOST; n++) {
@@ -1259,7 +1259,8 @@ static void test_paper_loop(void) {
     gsl_odeiv2_evolve *evolve = gsl_odeiv2_evolve_alloc(2);
     double t = 0, h = 0.01, y[2] = {1, 0};
     bool alike = true;
-    for (; t < 0.8; accepted++) { /* a fall, a bounce, part of the rise */
+    for (; t < 0.8 && accepted < 10000;
+         accepted++) { /* a fall, a bounce, part of the rise */
       /* free flight has an estimate of rounding alone: bring both back to
          a step that does not jump over the wall */
       h = want.h = GSL_MIN(GSL_MIN(h, want.h), 0.01);
@@ -1294,14 +1295,14 @@ static double control_error(const struct stepper *s, double delta) {
   double t = 0, h = 0.1, y[DIM], exact[DIM];
   p->exact(0, y);
   int status = GSL_SUCCESS;
-  while (t < 10 && status == GSL_SUCCESS)
+  while (t < 10 && status == GSL_SUCCESS && evolve->count < 100000)
     status =
         gsl_odeiv2_evolve_apply(evolve, control, step, &sys, &t, 10, &h, y);
   p->exact(10, exact);
   gsl_odeiv2_evolve_free(evolve);
   gsl_odeiv2_control_free(control);
   gsl_odeiv2_step_free(step);
-  return status == GSL_SUCCESS ? distance(p->dim, y, exact) : GSL_NAN;
+  return t == 10 ? distance(p->dim, y, exact) : GSL_NAN;
 }
 
 static void test_control_error(void) {
