@@ -12,15 +12,17 @@ int verb_fraction(int argc, char **argv) {
   struct option_list box = {6, {0, 1, 0, 1, 0, 1}};
   size_t sampled = 0;
   bool allow_partial = false;
+  /* clang-format off */
   struct option_spec options[] = {
-      {"box", OPTION_LIST, &box, 6, 6, NULL, "m", "x0,x1,y0,y1,z0,z1", false,
-       false, NULL, NULL},
-      {"sampled", OPTION_SIZE, &sampled, 0, 4096, NULL, "0: none",
-       "count N^3 midpoints as well", false, false, NULL, NULL},
-      {"allow-partial", OPTION_FLAG, &allow_partial, 0, 0, NULL, "",
-       "take a file that is cut short or marked as failed", false, false, NULL,
-       NULL},
+      {.name = "box", .type = OPTION_LIST, .value = &box, .least = 6,
+       .most = 6, .unit = "m", .help = "x0,x1,y0,y1,z0,z1"},
+      {.name = "sampled", .type = OPTION_SIZE, .value = &sampled,
+       .most = 4096, .unit = "0: none",
+       .help = "count N^3 midpoints as well"},
+      {.name = "allow-partial", .type = OPTION_FLAG, .value = &allow_partial,
+       .help = "take a file that is cut short or marked as failed"},
       {0}};
+  /* clang-format on */
   const struct program program = {
       .name = "analyze",
       .summary =

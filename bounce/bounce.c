@@ -1,6 +1,5 @@
 /* bounce: one sphere dropped on a plane, two unknowns: height of its lowest
    point above the plane, and velocity. */
-#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -150,28 +149,19 @@ int main(int argc, char **argv) {
   double travel = 1, height = 16, gravity = 9.81, time = 10;
   size_t samples = 1000;
   bool rebound = false;
+  /* clang-format off */
   struct option_spec options[] = {
-      {"height", OPTION_DOUBLE, &height, DBL_MIN, OPTION_MANY, NULL, "m",
-       "height it is dropped from", true, false, NULL, NULL},
-      {"restitution", OPTION_DOUBLE, &law->restitution, 0, 1, NULL, "",
-       "coefficient of restitution e", true, false, NULL, NULL},
-      {"kappa", OPTION_DOUBLE, &law->kappa, DBL_MIN, OPTION_MANY, NULL, "1/m",
-       "stiffness exponent", true, false, NULL, NULL},
-      {"f0", OPTION_DOUBLE, &law->f0, DBL_MIN, OPTION_MANY, NULL, "N",
-       "repulsion at touch F0", true, false, NULL, NULL},
-      {"psi", OPTION_DOUBLE, &law->psi, DBL_MIN, OPTION_MANY, NULL, "s/m",
-       "dissipation focusing", true, false, NULL, NULL},
-      {"gravity", OPTION_DOUBLE, &gravity, DBL_MIN, OPTION_MANY, NULL, "m/s^2",
-       "gravity", true, false, NULL, NULL},
-      {"time", OPTION_DOUBLE, &time, DBL_MIN, OPTION_MANY, NULL, "s", "end",
-       true, false, NULL, NULL},
-      {"samples", OPTION_SIZE, &samples, 1, 1e9, NULL, "",
-       "rows, evenly in time", false, false, NULL, NULL},
-      {"rebound", OPTION_FLAG, &rebound, 0, 0, NULL, "",
-       "one row instead: the first apex after the rebound", false, false, NULL,
-       NULL},
+      POSITIVE("height", &height, "m", "height it is dropped from"),
+      LAW_OPTIONS(*law),
+      POSITIVE("gravity", &gravity, "m/s^2", "gravity"),
+      POSITIVE("time", &time, "s", "end"),
+      {.name = "samples", .type = OPTION_SIZE, .value = &samples, .least = 1,
+       .most = 1e9, .help = "rows, evenly in time"},
+      {.name = "rebound", .type = OPTION_FLAG, .value = &rebound,
+       .help = "one row instead: the first apex after the rebound"},
       INTEGRATION_OPTIONS(integrate, travel),
       {0}};
+  /* clang-format on */
   const struct program program = {
       .name = "bounce",
       .summary = "A sphere dropped on a plane: time (s), height (m), velocity "
@@ -182,6 +172,7 @@ int main(int argc, char **argv) {
   const int operand = options_parse(&program, argc, argv);
   if (operand < argc)
     die(EXIT_USAGE, "'%s': expected options only", argv[operand]);
+  integrate_defaults(&integrate);
   const char *wrong = scene_check(&scene);
   if (wrong)
     die(EXIT_USAGE, "%s", wrong);

@@ -34,6 +34,13 @@ struct integrator {
   double y[];
 };
 
+void integrate_defaults(struct integrate_options *o) {
+  if (!o->control)
+    o->control = strcmp(o->method, "rkc") ? "paper" : "predictive";
+  if (o->tol == 0)
+    o->tol = strcmp(o->control, "paper") ? 1e-3 : 0.1;
+}
+
 static const gsl_odeiv2_step_type *find_method(const char *name) {
   const struct {
     const char *name;

@@ -14,13 +14,18 @@ extern const char *const integrate_controls[];
 
 struct integrate_options {
   const char *method;
-  const char *control;   /* unused where step > 0 */
-  double tol;            /* paper: delta; standard: abstol where that is 0 */
+  const char *control;   /* NULL: by method; unused where step > 0 */
+  double tol;            /* paper: delta; else abstol where that is 0;
+                            0: by control */
   double abstol, reltol; /* standard control, per unknown's scale */
   double hinit;          /* first trial step (s) */
   double hmax;           /* longest step (s), 0: none */
   double step;           /* fixed step (s), 0: adaptive */
 };
+
+/* Sets what is left to the method: rkc has predictive control with tol 1e-3,
+   others the paper's with delta = 0.1. */
+void integrate_defaults(struct integrate_options *o);
 
 struct integrate_problem {
   gsl_odeiv2_system system;

@@ -212,7 +212,9 @@ static void print_help(const struct program *p) {
     if (o->unit && *o->unit)
       printf(", %s", o->unit);
     option_text(o, value, sizeof value);
-    if (o->type != OPTION_FLAG && *value)
+    const bool unset =
+        o->type == OPTION_DOUBLE && !in_range(o, *(const double *)o->value);
+    if (o->type != OPTION_FLAG && *value && !unset)
       printf(" [%s]", value);
     putchar('\n');
     if (o->choices) {

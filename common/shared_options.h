@@ -6,52 +6,42 @@
 #include "integrate.h"
 #include "options.h"
 
+/* clang-format off */
+
+/* A number with a name, where it goes, and its range. */
+#define NUMBER(name_, value_, least_, most_, unit_, help_)                     \
+  {.name = name_, .type = OPTION_DOUBLE, .value = value_, .least = least_,     \
+   .most = most_, .unit = unit_, .help = help_, .parameter = true}
+#define POSITIVE(name_, value_, unit_, help_)                                  \
+  NUMBER(name_, value_, DBL_MIN, OPTION_MANY, unit_, help_)
+
 /* Integration, into a struct integrate_options o and the travel limit. */
-#define INTEGRATION_OPTIONS(o, travel)                                           \
-  {"method", OPTION_TEXT, &(o).method, 0,     0,    integrate_methods,           \
-   "",       "stepper",   true,        false, NULL, NULL},                       \
-      {"control", OPTION_TEXT,    &(o).control, 0,     0,    integrate_controls, \
-       "",        "step control", true,         false, NULL, NULL},              \
-      {"tol",                                                                    \
-       OPTION_DOUBLE,                                                            \
-       &(o).tol,                                                                 \
-       DBL_MIN,                                                                  \
-       OPTION_MANY,                                                              \
-       NULL,                                                                     \
-       "m/s, m/s^2 (paper) or m/s (standard)",                                   \
-       "tolerance",                                                              \
-       true,                                                                     \
-       false,                                                                    \
-       NULL,                                                                     \
-       NULL},                                                                    \
-      {"abstol",                                                                 \
-       OPTION_DOUBLE,                                                            \
-       &(o).abstol,                                                              \
-       0,                                                                        \
-       OPTION_MANY,                                                              \
-       NULL,                                                                     \
-       "m/s; 0: as --tol",                                                       \
-       "absolute tolerance of standard control",                                 \
-       true,                                                                     \
-       false,                                                                    \
-       NULL,                                                                     \
-       NULL},                                                                    \
-      {"reltol",    OPTION_DOUBLE,                                               \
-       &(o).reltol, 0,                                                           \
-       OPTION_MANY, NULL,                                                        \
-       "",          "relative tolerance of standard control",                    \
-       true,        false,                                                       \
-       NULL,        NULL},                                                       \
-      {"hinit", OPTION_DOUBLE,      &(o).hinit, DBL_MIN, OPTION_MANY, NULL,      \
-       "s",     "first trial step", true,       false,   NULL,        NULL},     \
-      {"hmax",       OPTION_DOUBLE,  &(o).hmax, 0,     OPTION_MANY, NULL,        \
-       "s; 0: none", "longest step", true,      false, NULL,        NULL},       \
-      {"step",           OPTION_DOUBLE, &(o).step, 0,     OPTION_MANY, NULL,     \
-       "s; 0: adaptive", "fixed step",  true,      false, NULL,        NULL},    \
-  {                                                                              \
-    "travel", OPTION_DOUBLE, &(travel), 0, OPTION_MANY, NULL,                    \
-        "in 1/kappa; 0: no limit", "furthest a sphere may go in a step", true,   \
-        false, NULL, NULL                                                        \
-  }
+#define INTEGRATION_OPTIONS(o, travel)                                         \
+  {.name = "method", .type = OPTION_TEXT, .value = &(o).method,                \
+   .choices = integrate_methods, .help = "stepper", .parameter = true},        \
+  {.name = "control", .type = OPTION_TEXT, .value = &(o).control,              \
+   .choices = integrate_controls, .help = "step control",                      \
+   .unit = "by method: predictive for rkc, else paper", .parameter = true},    \
+  POSITIVE("tol", &(o).tol,                                                    \
+           "by control: paper 0.1 (m/s^2), else 0.001 (m/s)", "tolerance"),    \
+  NUMBER("abstol", &(o).abstol, 0, OPTION_MANY, "m/s; 0: as --tol",            \
+         "absolute tolerance but for paper control"),                          \
+  NUMBER("reltol", &(o).reltol, 0, OPTION_MANY, "",                            \
+         "relative tolerance but for paper control"),                          \
+  POSITIVE("hinit", &(o).hinit, "s", "first trial step"),                      \
+  NUMBER("hmax", &(o).hmax, 0, OPTION_MANY, "s; 0: none", "longest step"),     \
+  NUMBER("step", &(o).step, 0, OPTION_MANY, "s; 0: adaptive", "fixed step"),   \
+  NUMBER("travel", &(travel), 0, OPTION_MANY, "in 1/kappa; 0: no limit",       \
+         "furthest a sphere may go in a step")
+
+/* The contact law, but for friction, into a struct contact_law c. */
+#define LAW_OPTIONS(c)                                                         \
+  NUMBER("restitution", &(c).restitution, 0, 1, "",                            \
+         "coefficient of restitution e"),                                      \
+  POSITIVE("f0", &(c).f0, "N", "repulsion at touch F0"),                       \
+  POSITIVE("kappa", &(c).kappa, "1/m", "stiffness exponent"),                  \
+  POSITIVE("psi", &(c).psi, "s/m", "dissipation focusing")
+
+/* clang-format on */
 
 #endif

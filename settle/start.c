@@ -41,11 +41,21 @@ static void read_scene(const struct settings *s, struct bed *b,
     fclose(in);
 }
 
+/* Belongs to a method: another one does not inherit it. */
+static bool is_step_control(const struct option_spec *o) {
+  const char *const names[] = {"control", "tol", "abstol", "reltol", "step"};
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+    if (!strcmp(o->name, names[i]))
+      return true;
+  return false;
+}
+
 static void apply_header(struct option_spec *options,
                          const struct bed_header *h, const char *name) {
+  const bool other_method = option_find(options, "method")->given;
   for (size_t k = 0; k < h->count; k++) {
     struct option_spec *o = option_find(options, h->at[k].name);
-    if (!o || !o->parameter || o->given)
+    if (!o || !o->parameter || o->given || (other_method && is_step_control(o)))
       continue;
     const char *want = option_set(o, h->at[k].value);
     if (want)
@@ -134,6 +144,7 @@ void start_make(struct settings *s, struct option_spec *options, struct bed *b,
                    : !strcmp(s->model, "friction") ? SCENE_FRICTION
                                                    : SCENE_ROTATION;
   set_gravity(s, option_find(options, "gravity")->given, name);
+  integrate_defaults(&s->integrate);
   const char *wrong = scene_check(&s->scene);
   if (wrong)
     die(s->scene_file ? EXIT_INPUT : EXIT_USAGE, "%s", wrong);

@@ -256,7 +256,7 @@ lists settle scene count radius base drop jitter seed model restitution \
   reltol hinit hmax step travel frames stats log until-rest threads pairs \
   allow-partial quiet
 check 'defaults in the help' test "$(grep -c -e '--count.*\[200\]' \
-  -e '--gravity.*m/s^2.*\[9.81\]' -e '--tol.*\[0.1\]' "$T/out")" = 3
+  -e '--gravity.*m/s^2.*\[9.81\]' -e '--hinit.*\[0.1\]' "$T/out")" = 3
 succeed 'help of bounce' bounce --help
 lists bounce height restitution kappa f0 psi gravity time samples method \
   control tol rebound
