@@ -111,5 +111,6 @@ help: ## this list
 	  expand -t 16
 
 include plots/figures.mk
+include bench/bench.mk
 
 .PHONY: all check deps demo install clean help
