@@ -38,7 +38,7 @@ void integrate_defaults(struct integrate_options *o) {
   if (!o->control)
     o->control = strcmp(o->method, "rkc") ? "paper" : "predictive";
   if (o->tol == 0)
-    o->tol = strcmp(o->control, "paper") ? 1e-3 : 0.1;
+    o->tol = strcmp(o->control, "paper") ? 5e-4 : 0.1;
 }
 
 static const gsl_odeiv2_step_type *find_method(const char *name) {

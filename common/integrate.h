@@ -23,7 +23,7 @@ struct integrate_options {
   double step;           /* fixed step (s), 0: adaptive */
 };
 
-/* Sets what is left to the method: rkc has predictive control with tol 1e-3,
+/* Sets what is left to the method: rkc has predictive control with tol 5e-4,
    others the paper's with delta = 0.1. */
 void integrate_defaults(struct integrate_options *o);
 

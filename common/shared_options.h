@@ -23,7 +23,7 @@
    .choices = integrate_controls, .help = "step control",                      \
    .unit = "by method: predictive for rkc, else paper", .parameter = true},    \
   POSITIVE("tol", &(o).tol,                                                    \
-           "by control: paper 0.1 (m/s^2), else 0.001 (m/s)", "tolerance"),    \
+           "by control: paper 0.1 (m/s^2), else 5e-4 (m/s)", "tolerance"),    \
   NUMBER("abstol", &(o).abstol, 0, OPTION_MANY, "m/s; 0: as --tol",            \
          "absolute tolerance but for paper control"),                          \
   NUMBER("reltol", &(o).reltol, 0, OPTION_MANY, "",                            \

@@ -128,8 +128,8 @@ static double errors(const struct world *w) {
   return 1.1 * TOL * (double)(steps(w) + 1);
 }
 
-/* No case takes a tenth of these. */
-static const size_t most_steps = 1000000;
+/* No case takes half of these. */
+static const size_t most_steps = 200000;
 
 static bool step(struct world *w) {
   return (integrate_step(w->integrator) == GSL_SUCCESS &&
