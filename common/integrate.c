@@ -95,7 +95,7 @@ static bool options_fit(const struct integrate_options *o,
   bool known = false;
   for (size_t i = 0; o->control && integrate_controls[i]; i++)
     known = known || !strcmp(o->control, integrate_controls[i]);
-  return known && o->hinit > 0 && o->reltol >= 0 &&
+  return known && o->hinit > 0 && gsl_finite(o->hinit) && o->reltol >= 0 &&
          (o->tol > 0 || (o->abstol > 0 && strcmp(o->control, "paper")));
 }
 

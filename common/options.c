@@ -238,7 +238,7 @@ void finish_output(void) {
     die(EXIT_IO, "standard output: %s", strerror(errno));
 }
 
-enum { HELP = 1000, VERSION };
+enum { MOST_OPTIONS = 64, HELP = 1000, VERSION };
 
 int options_parse(const struct program *p, int argc, char **argv) {
   program_name = p->name;
@@ -255,9 +255,9 @@ int options_parse(const struct program *p, int argc, char **argv) {
   size_t count = 0;
   while (p->options[count].name)
     count++;
-  struct option *table = calloc(count + 3, sizeof *table);
-  if (!table)
-    die(EXIT_IO, "out of memory");
+  struct option table[MOST_OPTIONS + 3] = {{0}};
+  if (count > MOST_OPTIONS)
+    die(EXIT_IO, "internal error: %zu options", count);
   for (size_t i = 0; i < count; i++)
     table[i] = (struct option){.name = p->options[i].name,
                                .has_arg = p->options[i].type == OPTION_FLAG
@@ -287,6 +287,5 @@ int options_parse(const struct program *p, int argc, char **argv) {
       die(EXIT_USAGE, "--%s %s: expected %s", o->name, optarg, want);
     o->given = true;
   }
-  free(table);
   return optind;
 }

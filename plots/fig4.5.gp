@@ -1,11 +1,12 @@
 # Fig. 4.5: speed-up (above) and parallel efficiency (below) against cores,
 # one block of the file for each curve, a method with a number of spheres.
 #   gnuplot -c plots/fig4.5.gp IN OUT
-# IN: columns method, n, threads, speedup, efficiency.
+# IN: columns method, n, threads, speedup, efficiency, independent (what as many
+# runs of one thread keep of their speed side by side: the machine's own limit).
 set loadpath system("dirname '".ARG0."'")
 key_rows = 3
 height = 640
-columns = "method n threads speedup efficiency"
+columns = "method n threads speedup efficiency independent"
 call "style.gp" "fig4.5.gp IN OUT" ARG2 ARG1
 
 stats ARG1 using (blocks = column(-2) + 1) nooutput
@@ -34,7 +35,9 @@ plot for [b=1:blocks] ARG1 index b-1 using "threads":"speedup" \
     with linespoints lw line dt dash[b] pt mark(b) ps symbol \
     lc rgb method_colour(name[b]) title label[b], \
   ARG1 using "threads":"threads" with lines lw 1.5*thin dt 3 lc rgb black \
-    title "ideal"
+    title "ideal", \
+  NaN with points pt 1 ps symbol lc rgb black \
+    title "independent runs (efficiency)"
 unset key
 unset logscale y
 set format x "%h"
@@ -47,5 +50,7 @@ set bmargin at screen (87. + 28*key_rows)/height
 plot for [b=1:blocks] ARG1 index b-1 using "threads":"efficiency" \
     with linespoints lw line dt dash[b] pt mark(b) ps symbol \
     lc rgb method_colour(name[b]), \
+  ARG1 using "threads":"independent" with points pt 1 ps symbol \
+    lc rgb black, \
   ARG1 using "threads":(1) with lines lw 1.5*thin dt 3 lc rgb black
 unset multiplot

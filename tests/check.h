@@ -10,7 +10,7 @@
 
 static size_t check_passed, check_failed;
 
-static inline bool check_report(bool ok, const char *file, int line,
+static inline int check_report(bool ok, const char *file, int line,
                                 const char *what) {
   if (ok)
     check_passed++;
@@ -21,7 +21,7 @@ static inline bool check_report(bool ok, const char *file, int line,
   return ok;
 }
 
-static inline bool check_close(double got, double want, double tol,
+static inline int check_close(double got, double want, double tol,
                                const char *file, int line, const char *what) {
   const bool ok = fabs(got - want) <= tol;
   if (!check_report(ok, file, line, what))

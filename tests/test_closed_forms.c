@@ -8,6 +8,7 @@
    most the number of steps times that, times what a perturbation can grow by;
    the latter is derived where it is used. GSL's control lets 10 per cent
    more pass. */
+#define _POSIX_C_SOURCE 200809L /* popen */
 #include <float.h>
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_errno.h>
@@ -910,16 +911,16 @@ static double rebound_apex(double f0, double kappa, double e,
 static double rebound_printed(double f0, double kappa, double e,
                               const char *method) {
   const char *build = getenv("B");
-  char command[256], line[512];
+  char command[256], text[512];
   snprintf(command, sizeof command,
            "%s/bounce --rebound --method %s --control standard --tol %g"
            " --f0 %.17g --kappa %.17g --restitution %.17g",
            build ? build : "build", method, TOL, f0, kappa, e);
   FILE *f = popen(command, "r");
   double t = GSL_NAN;
-  while (f && fgets(line, sizeof line, f)) {
+  while (f && fgets(text, sizeof text, f)) {
     double row[4];
-    if (sscanf(line, "%lf %lf %lf %lf", row, row + 1, row + 2, row + 3) == 4)
+    if (sscanf(text, "%lf %lf %lf %lf", row, row + 1, row + 2, row + 3) == 4)
       t = row[3];
   }
   CHECK(f && pclose(f) == 0);

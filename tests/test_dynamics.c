@@ -517,7 +517,7 @@ static void test_momentum(gsl_rng *rng) {
     double a[36], alpha[36], load[12], oracle[72];
     oracle_rates(&s.scene, &s.bed, oracle, oracle + 36, load);
     rates_once(&s, a, alpha);
-    double momentum[3] = {0}, spin[3] = {0}, loads = 0, arms = 0, mass = 0;
+    double momentum[3] = {0}, spin[3] = {0}, loads = 0, arms = 0;
     for (size_t i = 0; i < n; i++) {
       const double *x = s.bed.x + 3 * i, m = s.bed.m[i], r = s.bed.r[i];
       double force[3], xxf[3];
@@ -527,7 +527,6 @@ static void test_momentum(gsl_rng *rng) {
       vec3_cross(x, force, xxf);
       vec3_axpy(1, xxf, spin);
       vec3_axpy(0.4 * m * r * r, alpha + 3 * i, spin);
-      mass += m;
       loads += load[i] + m * vec3_norm(s.scene.gravity);
       arms += (load[i] + m * vec3_norm(s.scene.gravity)) * (vec3_norm(x) + r);
     }

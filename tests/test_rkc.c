@@ -8,6 +8,7 @@
 #include <gsl/gsl_fit.h>
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_rng.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include "bed.h"
@@ -105,11 +106,11 @@ static void circle(double t, double y[]) {
 }
 
 static const struct problem problems[] = {
-    {"3x3", 3, three_f, three, 0, 2},
-    {"-y + cos t", 1, driven_f, driven, 0, 2},
-    {"logistic", 1, logistic_f, logistic, 0, 3},
+    {"3x3", 3, three_f, three, 0.5, 2},
+    {"-y + cos t", 1, driven_f, driven, 0.5, 2},
+    {"logistic", 1, logistic_f, logistic, 0.5, 3},
     {"-t y^3", 1, cube_f, cube, 0.5, 3},
-    {"circle", 2, circle_f, circle, 0, 2}};
+    {"circle", 2, circle_f, circle, 0.5, 2}};
 
 /* A problem and, where rate > 0, one unknown more, apart from the others,
    y' = -rate (y - cos t) - sin t with the solution cos t, which makes the
@@ -248,20 +249,33 @@ static void test_orders(void) {
   }
 }
 
-/* Prothero and Robinson: the error while h * rate is large. */
+/* Prothero and Robinson: the error while h * rate is large. Steps damp what
+   the ones before have added, so that less is left than of a problem that is
+   not stiff, which has about h^2/15: h^2 g, with a g that grows towards that as
+   h * rate falls and jumps with the number of stages. It takes up to a half
+   from the slope. */
 static void test_stiff_order(void) {
-  static const double rates[] = {1e4, 1e6};
+  enum { MANY = 25 };
+  static const double rates[] = {1e3, 1e4, 1e5};
+  static const double least[] = {4, 8, 16};
   for (size_t i = 0; i < COUNT(rates); i++) {
-    double x[POINTS], y[POINTS];
+    double x[MANY], y[MANY], worst = 0;
     size_t first = 0, last = 0;
-    for (int k = 0; k < POINTS; k++) {
-      const double n = floor((i ? 64 : 16) * pow(2, 0.25 * k));
+    for (int k = 0; k < MANY; k++) {
+      const double n = floor(least[i] * pow(2, 0.125 * k)), h = 2 / n;
       struct companion c = {.rate = rates[i]};
-      x[k] = -log(n);
-      y[k] = log(global_error(&c, 1, 0.3, 2.3, (size_t)n, k ? &last : &first));
+      const double e =
+          global_error(&c, 1, 0.3, 2.3, (size_t)n, k ? &last : &first);
+      x[k] = log(h);
+      y[k] = log(e);
+      if (!(e / (h * h) <= worst))
+        worst = e / (h * h);
     }
-    printf("rate %g: order %.3f with %zu to %zu stages, error %.2g\n", rates[i],
-           slope_of(POINTS, x, y), last, first, exp(y[POINTS - 1]));
+    const double p = slope_of(MANY, x, y);
+    printf("rate %g: order %.3f with %zu to %zu stages, error %.2g h^2\n",
+           rates[i], p, last, first, worst);
+    CHECK(p > 1.5);
+    CHECK(worst < 1. / 15);
   }
 }
 
@@ -276,12 +290,14 @@ struct polynomial {
 };
 
 static struct polynomial polynomial(size_t stages) {
-  const double s = (double)stages, e = damping / (s * s);
-  const double theta = 2 * asinh(sqrt(e / 2)), w0 = 1 + e;
-  const double t = cosh(s * theta), d = s * sinh(s * theta) / sinh(theta);
-  const double dd = (s * s * t - w0 * d) / (e * (2 + e));
-  const double b = dd / (d * d);
-  return (struct polynomial){s, 1 - b * t, b, w0, d / dd};
+  const long double s = (long double)stages, e = 2 / (13 * s * s), w0 = 1 + e;
+  const long double theta = 2 * asinhl(sqrtl(e / 2));
+  const long double t = coshl(s * theta),
+                    d = s * sinhl(s * theta) / sinhl(theta);
+  const long double dd = (s * s * t - w0 * d) / (e * (2 + e));
+  const long double b = dd / (d * d);
+  return (struct polynomial){(double)s, (double)(1 - b * t), (double)b,
+                             (double)w0, (double)(d / dd)};
 }
 
 static double complex value(const struct polynomial *p, double complex z) {
@@ -358,7 +374,7 @@ static void test_reach(void) {
     /* authors' expansion; its next term is of the order of damping^2 */
     CHECK_REL(rkc_reach(s), 2. / 3 * (sd * sd - 1) * (1 - 2. / 15 * damping),
               0.1 * damping * damping);
-    CHECK(rkc_reach(s) >= 0.6 * sd * sd || s < 4);
+    CHECK(rkc_reach(s) >= (s < 4 ? 0.49 : 0.6) * sd * sd);
   }
   printf("reach/s^2: %.4f (2) %.4f (3) %.4f (4) %.4f (10) %.4f (60)\n",
          rkc_reach(2) / 4, rkc_reach(3) / 9, rkc_reach(4) / 16,
@@ -380,8 +396,9 @@ static void test_stability_polynomial(void) {
        good to 1e-7 */
     CHECK(one_step(reach * (1 + 1e-5) / factor, 1, lambda, r, NULL) == s + 1);
     CHECK(one_step(reach * (1 - 1e-5) / factor, N + 1, lambda, r, e) == s);
-    /* rounding of s stages of which none amplifies more than linearly */
-    const double tol = ULPS((double)(s * s));
+    /* the recurrence amplifies roundings by s^2, which those of its
+       coefficients, of s stages, add up to */
+    const double tol = ULPS(4 * pow((double)s, 3));
     double most = 0, inside = 0, off = 0, off_estimate = 0;
     for (size_t i = 1; i <= N; i++) {
       const double z = creal(lambda[i]), got = creal(r[i]);
@@ -406,7 +423,7 @@ static void test_stability_polynomial(void) {
     CHECK(inside <= p.a + p.b + tol);
     CHECK_CLOSE(inside, 1 - damping / 3, damping * damping);
   }
-  printf("R(z): rounding at most %.2g of s^2 ulps\n", worst);
+  printf("R(z): rounding at most %.2g of 4 s^3 ulps\n", worst);
 }
 
 /* Along z = (-q + i) y: the largest y up to which |R| <= 1 + 1e-9. */
@@ -437,6 +454,8 @@ static void test_oblique(void) {
         want++;
       printf("%9.4f", most * (j - 1) / N);
       CHECK(abs(j - want) <= 1);
+      /* on the axis itself only the 1e-9; else short of it */
+      CHECK(k ? most * j / N > 0.5 && j < N : most * j / N < 0.02);
     }
     putchar('\n');
   }
@@ -456,8 +475,8 @@ static void pressed_bed(struct bed *b, size_t n, double spacing, double speed,
   for (size_t i = 0; i < n; i++) {
     const size_t at[3] = {i % 2, i / 2 % 2, i / 4};
     for (int k = 0; k < 3; k++) {
-      b->x[3 * i + k] = r + spacing * (double)at[k] +
-                        0.1 * r * (gsl_rng_uniform(rng) - 0.5);
+      b->x[3 * i + k] =
+          r + spacing * (double)at[k] + 0.1 * r * (gsl_rng_uniform(rng) - 0.5);
       b->v[3 * i + k] = speed * (2 * gsl_rng_uniform(rng) - 1);
       b->w[3 * i + k] = speed / r * (2 * gsl_rng_uniform(rng) - 1);
     }
@@ -478,7 +497,8 @@ static double true_radius(struct dynamics *d, double t, const double y[]) {
   gsl_eigen_nonsymm_params(0, 1, w);
   CHECK(gsl_eigen_nonsymm(&m.matrix, eigenvalue, w) == GSL_SUCCESS);
   for (size_t i = 0; i < dim; i++)
-    most = GSL_MAX(most, gsl_complex_abs(gsl_vector_complex_get(eigenvalue, i)));
+    most = GSL_MAX(most,
+                   hypot(eigenvalue->data[2 * i], eigenvalue->data[2 * i + 1]));
   gsl_eigen_nonsymm_free(w);
   gsl_vector_complex_free(eigenvalue);
   free(jacobian);
@@ -486,79 +506,403 @@ static double true_radius(struct dynamics *d, double t, const double y[]) {
   return most;
 }
 
-static void follow(enum scene_model model, size_t n, double spacing,
-                   double speed, size_t steps, size_t every) {
-  struct scene s = scene_default();
-  s.model = model;
-  struct bed b;
-  pressed_bed(&b, n, spacing, speed, 1);
-  if (scene_add_box(&s, 0.4, 0.4) != GSL_SUCCESS)
-    exit(99);
+/* A gsl_odeiv2 integration of a bed, taken apart. */
+struct bench {
+  struct scene scene;
+  struct bed bed;
+  struct dynamics *d;
+  size_t dim;
+  double *y, *scale;
+};
+
+static void bench_open(struct bench *b, enum scene_model model, size_t n,
+                       double spacing, double speed) {
+  b->scene = scene_default();
+  b->scene.model = model;
+  pressed_bed(&b->bed, n, spacing, speed, 1);
   const struct dynamics_options one = {.threads = 1};
-  struct dynamics *d = dynamics_alloc(&s, &b, &one);
-  const size_t dim = dynamics_dimension(d);
-  double *y = numbers(dim), *scale = numbers(dim);
-  dynamics_pack(d, &b, y);
-  dynamics_scale(d, scale);
-  const gsl_odeiv2_system sys = {dynamics_rhs, NULL, dim, d};
-  gsl_odeiv2_step *step = gsl_odeiv2_step_alloc(rkc, dim);
-  gsl_odeiv2_control *c = control_predictive_new(1e-3, 0, scale, dim);
-  gsl_odeiv2_evolve *e = gsl_odeiv2_evolve_alloc(dim);
-  double t = 0, h = 1e-4;
-  size_t spent = 0;
-  double lo[2] = {1e300, 1e300}, hi[2] = {0, 0}; /* fresh, stale */
-  double big = 0;
-  size_t out[2] = {0}, all[2] = {0};
-  for (size_t k = 0; k < steps; k++) {
-    if (!CHECK(gsl_odeiv2_evolve_apply(e, c, step, &sys, &t, 10, &h, y) ==
+  if (scene_add_box(&b->scene, 0.4, 0.4) != GSL_SUCCESS ||
+      !(b->d = dynamics_alloc(&b->scene, &b->bed, &one)))
+    exit(99);
+  b->dim = dynamics_dimension(b->d);
+  b->y = numbers(b->dim);
+  b->scale = numbers(b->dim);
+  dynamics_pack(b->d, &b->bed, b->y);
+  dynamics_scale(b->d, b->scale);
+}
+
+static void bench_close(struct bench *b) {
+  dynamics_free(b->d);
+  bed_free(&b->bed);
+  scene_free(&b->scene);
+  free(b->y);
+  free(b->scale);
+}
+
+struct range {
+  size_t all, within; /* 0.95 to 1.25, no more than 20 % below or above 1.2 */
+  double least, most;
+};
+
+static void range_add(struct range *r, double q) {
+  r->least = r->all ? GSL_MIN(r->least, q) : q;
+  r->most = r->all ? GSL_MAX(r->most, q) : q;
+  r->all++;
+  r->within += q >= 0.95 && q <= 1.25;
+}
+
+/* The estimate in use by the spectral radius at the start of every step from
+   after the first contacts, when it grows within a step or two from nothing
+   while the step is short, to end. */
+static void test_radius_of(enum scene_model model, size_t n, double begin,
+                           double end) {
+  struct bench b;
+  bench_open(&b, model, n, 0.2, 0.3);
+  const gsl_odeiv2_system sys = {dynamics_rhs, NULL, b.dim, b.d};
+  gsl_odeiv2_step *step = gsl_odeiv2_step_alloc(rkc, b.dim);
+  gsl_odeiv2_control *c = control_predictive_new(1e-3, 0, b.scale, b.dim);
+  gsl_odeiv2_evolve *e = gsl_odeiv2_evolve_alloc(b.dim);
+  double t = 0, h = 1e-4, radius_most = 0;
+  struct range range[2] = {0}; /* estimated in this step, in one before */
+  size_t spent = 0, k = 0;
+  while (t < end && k < 1000) {
+    if (!CHECK(gsl_odeiv2_evolve_apply(e, c, step, &sys, &t, end, &h, b.y) ==
                GSL_SUCCESS))
       break;
     const struct rkc_report r = rkc_report(step);
-    const int stale = r.power_evaluations == spent;
+    const bool old = r.power_evaluations == spent;
     spent = r.power_evaluations;
-    if (k % every)
+    CHECK(r.stages >= 2 && r.stages <= r.most_stages);
+    const double start = t - e->last_step;
+    /* of the large beds not every step: their eigenvalues take long */
+    if (start < begin || k++ % (1 + b.dim / 40))
       continue;
-    const double radius = true_radius(d, t - e->last_step, e->y0);
-    const double q = r.spectral_radius / radius;
-    big = GSL_MAX(big, radius);
-    lo[stale] = GSL_MIN(lo[stale], q);
-    hi[stale] = GSL_MAX(hi[stale], q);
-    all[stale]++;
-    out[stale] += !(q >= 0.95 && q <= 1.25);
-    if (getenv("V"))
-      printf("k %zu t %.4g h %.3g true %.4g est %.4g q %.3f %s s %zu hr %.3g rej %lu\n", k, t,
-             e->last_step, radius, r.spectral_radius, q, stale ? "old" : "new",
-             r.stages, e->last_step * radius, e->failed_steps);
+    const double radius = true_radius(b.d, start, e->y0);
+    radius_most = GSL_MAX(radius_most, radius);
+    range_add(&range[old], r.spectral_radius / radius);
   }
-  printf("model %d n %zu t %.3g radius %.3g power %zu: fresh [%.3f %.3f] %zu/%zu out, old [%.3f "
-         "%.3f] %zu/%zu out, rejected %lu of %lu, evals %zu\n",
-         model, n, t, big, spent, lo[0], hi[0], out[0], all[0], lo[1], hi[1], out[1],
-         all[1], e->failed_steps, e->count, dynamics_counts(d).evaluations);
+  printf("%s, %zu spheres: radius up to %.0f, estimate by it\n",
+         model == SCENE_BASIC ? "basic" : "full", n, radius_most);
+  for (int i = 0; i < 2; i++)
+    printf("  %s %.3f to %.3f, %zu of %zu in 0.95 to 1.25\n",
+           i ? "of a step before" : "of this step    ", range[i].least,
+           range[i].most, range[i].within, range[i].all);
+  printf("  %zu power evaluations of %zu, %lu steps rejected of %lu\n", spent,
+         dynamics_counts(b.d).evaluations, e->failed_steps, e->count);
+  /* The estimate comes from below, stops once two iterations agree to a
+     quarter, and has a factor 1.2: it is at most that factor high, and what is
+     missing leaves it at most some 15 % low. */
+  CHECK(range[0].all > 0 && range[1].all > 0);
+  CHECK(range[0].least >= 0.85 && range[0].most <= 1.25);
+  /* One of a step before is off by what the radius has done meanwhile: contacts
+     come and go within milliseconds, which are a step or two. */
+  CHECK(range[1].least >= (model == SCENE_BASIC ? 0.35 : 0.6) &&
+        range[1].most <= 1.5);
+  if (model == SCENE_ROTATION)
+    CHECK(range[0].within + range[1].within >=
+          0.75 * (double)(range[0].all + range[1].all));
   gsl_odeiv2_evolve_free(e);
   gsl_odeiv2_control_free(c);
   gsl_odeiv2_step_free(step);
-  dynamics_free(d);
-  bed_free(&b);
-  scene_free(&s);
-  free(y);
-  free(scale);
+  bench_close(&b);
 }
 
 static void test_radius(void) {
-  follow(SCENE_ROTATION, 8, 0.2, 0.3, 400, 3);
-  follow(SCENE_ROTATION, 18, 0.2, 0.3, 300, 7);
-  follow(SCENE_ROTATION, 30, 0.2, 0.3, 300, 17);
-  follow(SCENE_BASIC, 8, 0.2, 0.3, 400, 3);
-  follow(SCENE_BASIC, 30, 0.2, 0.3, 300, 13);
+  test_radius_of(SCENE_ROTATION, 8, 0.01, 0.3);
+  test_radius_of(SCENE_ROTATION, 18, 0.01, 0.3);
+  test_radius_of(SCENE_ROTATION, 30, 0.01, 0.3);
+  test_radius_of(SCENE_BASIC, 8, 0.2, 4);
+  test_radius_of(SCENE_BASIC, 30, 0.1, 2);
+}
+
+/* A stiff mode apart from all others which the first slope has nothing of: the
+   power iteration never sees it. The steps are then short but none is wrong. */
+static void test_hidden_mode(void) {
+  const double end = 0.1, tol = 1e-4;
+  struct companion c = {.problem = &problems[2], .rate = 1e4};
+  const gsl_odeiv2_system sys = companion_system(&c);
+  static const double ones[] = {1, 1};
+  gsl_odeiv2_step *step = gsl_odeiv2_step_alloc(rkc, 2);
+  gsl_odeiv2_control *control = control_predictive_new(tol, 0, ones, 2);
+  gsl_odeiv2_evolve *e = gsl_odeiv2_evolve_alloc(2);
+  double t = 0, h = 0.1, y[2], exact[2];
+  companion_exact(&c, 0, y);
+  while (t < end && e->count < 5000)
+    if (!CHECK(gsl_odeiv2_evolve_apply(e, control, step, &sys, &t, end, &h,
+                                       y) == GSL_SUCCESS))
+      break;
+  CHECK(t == end);
+  companion_exact(&c, end, exact);
+  /* the stiff unknown forgets all but the last steps' errors, of which the
+     estimate may be a half; the other has none to speak of */
+  CHECK_CLOSE(distance(2, y, exact), 0, 10 * tol);
+  printf("hidden mode: radius %.3g of 1e4, %lu of %lu steps rejected\n",
+         rkc_report(step).spectral_radius, e->failed_steps, e->count);
+  gsl_odeiv2_evolve_free(e);
+  gsl_odeiv2_control_free(control);
+  gsl_odeiv2_step_free(step);
+}
+
+/* --- contract --------------------------------------------------------------*/
+
+/* One apply; the derivatives are given or not by bits of which. */
+static int apply(gsl_odeiv2_step *step, struct companion *c, int which,
+                 double t, double h, double y[], double yerr[], double out[]) {
+  const gsl_odeiv2_system sys = companion_system(c);
+  double in[DIM];
+  struct companion quiet = *c;
+  quiet.fail_at = 0;
+  companion_f(t, y, in, &quiet);
+  return gsl_odeiv2_step_apply(step, t, h, y, yerr, which & 1 ? in : NULL,
+                               which & 2 ? out : NULL, &sys);
+}
+
+static void test_type(void) {
+  gsl_odeiv2_step *step = gsl_odeiv2_step_alloc(rkc, 3);
+  CHECK(!strcmp(gsl_odeiv2_step_name(step), "rkc"));
+  CHECK(gsl_odeiv2_step_order(step) == 2);
+  const struct rkc_report r = rkc_report(step);
+  CHECK(r.spectral_radius == 0 && r.stages == 0 && r.most_stages == 0 &&
+        r.power_evaluations == 0);
+  gsl_odeiv2_step_free(step);
+}
+
+static void test_derivatives(void) {
+  static const double rates[] = {0, 20, 1e4};
+  for (size_t i = 0; i < COUNT(rates); i++) {
+    double y[4][DIM], yerr[4][DIM], out[4][DIM], want[DIM];
+    struct companion c = {.problem = &problems[4], .rate = rates[i]};
+    const size_t dim = companion_system(&c).dimension;
+    for (int which = 0; which < 4; which++) {
+      gsl_odeiv2_step *step = gsl_odeiv2_step_alloc(rkc, dim);
+      companion_exact(&c, 0.5, y[which]);
+      c.calls = 0;
+      CHECK(apply(step, &c, which, 0.5, 0.1, y[which], yerr[which],
+                  out[which]) == GSL_SUCCESS);
+      const struct rkc_report r = rkc_report(step);
+      /* a slope at the start, one at each later stage, one at the end */
+      CHECK(c.calls == r.power_evaluations + r.stages + !(which & 1));
+      gsl_odeiv2_step_free(step);
+      CHECK(same(dim, y[which], y[0]) && same(dim, yerr[which], yerr[0]));
+    }
+    companion_f(0.6, y[0], want, &c);
+    CHECK(same(dim, out[2], want) && same(dim, out[3], want));
+    /* the estimate as the authors give it; both sides round sums of 4 terms */
+    double start[DIM], slope[DIM];
+    companion_exact(&c, 0.5, start);
+    companion_f(0.5, start, slope, &c);
+    for (size_t k = 0; k < dim; k++)
+      CHECK_CLOSE(yerr[0][k],
+                  0.8 * (start[k] - y[0][k]) + 0.4 * 0.1 * (slope[k] + want[k]),
+                  ULPS(4) * (1 + 0.1 * fabs(slope[k])));
+  }
+}
+
+/* The call that fails may be any of the first step's, or of a later one's, with
+   or without power iterations. */
+static void test_failures(void) {
+  struct companion c = {.problem = &problems[4], .rate = 2000};
+  const double h = 0.05;
+  for (int which = 0; which < 4; which++)
+    for (size_t before = 0; before < 6; before++) {
+      size_t calls = SIZE_MAX - 1;
+      double good[DIM] = {0};
+      for (size_t fail = 0; fail <= calls; fail++) { /* 0: to count them */
+        gsl_odeiv2_step *step = gsl_odeiv2_step_alloc(rkc, 3);
+        double y[DIM], begin[DIM], yerr[DIM], out[DIM], t = 0.5;
+        companion_exact(&c, t, y);
+        c.fail_at = 0;
+        for (size_t k = 0; k < before; k++, t += h)
+          CHECK(apply(step, &c, which, t, h, y, yerr, out) == GSL_SUCCESS);
+        memcpy(begin, y, sizeof y);
+        c.calls = 0;
+        c.fail_at = fail;
+        const int status = apply(step, &c, which, t, h, y, yerr, out);
+        if (!fail) {
+          CHECK(status == GSL_SUCCESS);
+          calls = c.calls;
+          memcpy(good, y, sizeof y);
+        } else {
+          CHECK(status == GSL_EBADFUNC);
+          CHECK(c.calls == fail);
+          CHECK(same(3, y, begin));
+          /* and goes on; with an estimate of another start the stages may
+             differ: two results of order 2 */
+          CHECK(apply(step, &c, which, t, h, y, yerr, out) == GSL_SUCCESS);
+          if (before)
+            CHECK(distance(3, y, good) <= pow(h, 3));
+          else
+            CHECK(same(3, y, good));
+        }
+        gsl_odeiv2_step_free(step);
+      }
+      CHECK(calls > 5);
+    }
+}
+
+/* More stages than any step has: left to the caller to shorten. */
+static void test_too_stiff(void) {
+  struct companion c = {.problem = &problems[4], .rate = 1e9};
+  gsl_odeiv2_step *step = gsl_odeiv2_step_alloc(rkc, 3);
+  double y[DIM], begin[DIM], yerr[DIM], out[DIM];
+  companion_exact(&c, 0.5, y);
+  memcpy(begin, y, sizeof y);
+  CHECK(apply(step, &c, 3, 0.5, 0.1, y, yerr, out) == GSL_FAILURE);
+  CHECK(same(3, y, begin));
+  CHECK(apply(step, &c, 3, 0.5, 5e-5, y, yerr, out) == GSL_SUCCESS);
+  CHECK(rkc_report(step).stages > 250);
+  gsl_odeiv2_step_free(step);
+}
+
+/* A stepper of its own and one that is reset give the same bits. */
+static void test_repeated(void) {
+  struct companion c = {.problem = &problems[0], .rate = 3e3};
+  gsl_odeiv2_step *used = gsl_odeiv2_step_alloc(rkc, 4);
+  double y[3][DIM], yerr[3][DIM], out[DIM];
+  for (int run = 0; run < 3; run++) {
+    gsl_odeiv2_step *step = run ? used : gsl_odeiv2_step_alloc(rkc, 4);
+    CHECK(gsl_odeiv2_step_reset(step) == GSL_SUCCESS);
+    companion_exact(&c, 0.5, y[run]);
+    for (int k = 0; k < 20; k++)
+      CHECK(apply(step, &c, 3, 0.5 + 0.05 * k, 0.05, y[run], yerr[run], out) ==
+            GSL_SUCCESS);
+    if (!run)
+      gsl_odeiv2_step_free(step);
+    CHECK(same(4, y[run], y[0]) && same(4, yerr[run], yerr[0]));
+  }
+  gsl_odeiv2_step_free(used);
+}
+
+struct constant {
+  size_t dim, calls;
+  double slope;
+};
+
+static int constant_f(double t, const double y[], double dydt[], void *params) {
+  (void)t, (void)y;
+  struct constant *c = params;
+  c->calls++;
+  for (size_t i = 0; i < c->dim; i++)
+    dydt[i] = c->slope * (double)(i + 1);
+  return GSL_SUCCESS;
+}
+
+static void test_constant(void) {
+  static const double slopes[] = {0, 1, -1e6};
+  for (size_t dim = 1; dim <= 5; dim += 2)
+    for (size_t i = 0; i < COUNT(slopes); i++)
+      for (int at_zero = 0; at_zero < 2; at_zero++) {
+        struct constant c = {.dim = dim, .slope = slopes[i]};
+        const gsl_odeiv2_system sys = {constant_f, NULL, dim, &c};
+        gsl_odeiv2_step *step = gsl_odeiv2_step_alloc(rkc, dim);
+        double y[5], yerr[5], out[5];
+        for (size_t k = 0; k < dim; k++)
+          y[k] = at_zero ? 0 : 1;
+        for (int n = 0; n < 3; n++)
+          CHECK(gsl_odeiv2_step_apply(step, n, 1, y, yerr, NULL, out, &sys) ==
+                GSL_SUCCESS);
+        for (size_t k = 0; k < dim; k++) {
+          const double rise = slopes[i] * (double)(k + 1);
+          /* few stages, few roundings */
+          const double tol = ULPS(20) * (1 + 3 * fabs(rise));
+          CHECK_CLOSE(y[k], !at_zero + 3 * rise, tol);
+          CHECK_CLOSE(yerr[k], 0, tol);
+          CHECK(out[k] == rise);
+        }
+        CHECK(rkc_report(step).stages == 2);
+        CHECK(rkc_report(step).spectral_radius == 0);
+        if (dim == 5 && i == 1 && at_zero)
+          printf("constant slope: %zu evaluations for 3 steps\n", c.calls);
+        gsl_odeiv2_step_free(step);
+      }
+}
+
+/* --- a bed, against merson -------------------------------------------------*/
+
+static double travel_limit(const double y[], const double dydt[],
+                           void *params) {
+  const struct bench *b = params;
+  return dynamics_step_limit(b->d, y, dydt, 1 / b->scene.law.kappa);
+}
+
+static int bench_rhs(double t, const double y[], double dydt[], void *params) {
+  return dynamics_rhs(t, y, dydt, ((struct bench *)params)->d);
+}
+
+/* 20 spheres let go into a box, at 0.6 s. */
+static size_t settle(const char *method, const char *control, double tol,
+                     struct bed *out) {
+  struct bench b;
+  bench_open(&b, SCENE_ROTATION, 20, 0.205, 0);
+  for (size_t i = 0; i < 20; i++)
+    b.bed.x[3 * i + 2] += 0.1;
+  dynamics_pack(b.d, &b.bed, b.y);
+  const struct integrate_problem p = {.system = {bench_rhs, NULL, b.dim, &b},
+                                      .scale = b.scale,
+                                      .row = dynamics_stride(b.d),
+                                      .positions = 3,
+                                      .step_limit = travel_limit};
+  const struct integrate_options o = {
+      .method = method, .control = control, .tol = tol, .hinit = 1e-3};
+  struct integrator *it = NULL;
+  if (!CHECK(integrate_alloc(&it, &o, &p, 0, b.y) == GSL_SUCCESS))
+    exit(check_done());
+  while (integrate_time(it) < 0.6)
+    if (!CHECK(integrate_step(it) == GSL_SUCCESS))
+      break;
+  CHECK(integrate_at(it, 0.6, b.y) == GSL_SUCCESS);
+  if (bed_alloc(out, 20) != GSL_SUCCESS)
+    exit(99);
+  dynamics_unpack(b.d, b.y, out);
+  printf("%s %g: %zu steps, %zu rejected, %zu evaluations\n", method, tol,
+         integrate_counts(it).accepted, integrate_counts(it).rejected,
+         dynamics_counts(b.d).evaluations);
+  const size_t steps = integrate_counts(it).accepted;
+  integrate_free(it);
+  bench_close(&b);
+  return steps;
+}
+
+static void test_bed(void) {
+  struct bed want, tight, got[3];
+  settle("merson", "standard", 1e-8, &want);
+  settle("merson", "standard", 1e-9, &tight);
+  const double floor_error = distance(60, want.x, tight.x);
+  double off[3];
+  for (int k = 0; k < 3; k++) {
+    const double tol = pow(10, -4 - k);
+    const size_t steps = settle("rkc", "predictive", tol, &got[k]);
+    off[k] = distance(60, got[k].x, want.x);
+    /* each step adds at most tol/kappa to a position; the bed is compared
+       before chaos makes more of it */
+    CHECK(off[k] <= (double)steps * tol / 150);
+    /* order 2: local errors of h^3 = tol, in all tol^(2/3), a factor 4.6 */
+    CHECK(!k || (off[k] > off[k - 1] / 10 && off[k] < off[k - 1] / 2));
+    bed_free(&got[k]);
+  }
+  printf("20 spheres, 0.6 s: merson 1e-8 by 1e-9 %.2g m; rkc by merson %.2g, "
+         "%.2g, %.2g m for 1e-4, 1e-5, 1e-6\n",
+         floor_error, off[0], off[1], off[2]);
+  CHECK(floor_error < 0.1 * off[2]); /* the reference is one */
+  bed_free(&want);
+  bed_free(&tight);
 }
 
 int main(void) {
   gsl_set_error_handler_off();
+  test_type();
   test_orders();
   test_stiff_order();
   test_reach();
   test_stability_polynomial();
   test_oblique();
   test_radius();
+  test_hidden_mode();
+  test_derivatives();
+  test_failures();
+  test_too_stiff();
+  test_repeated();
+  test_constant();
+  test_bed();
   return check_done();
 }
