@@ -13,7 +13,7 @@ gnuplot -c plots/$(1) $(2) $(F)/$(3).svg
 gnuplot -c plots/$(1) $(2) $(F)/$(3).png
 endef
 
-figures: table4.1 fig4.1 fig4.2 fig4.3 fig4.4 fig4.5 table-costs kappa ## every figure and table of the paper
+figures: table4.1 fig4.1 fig4.2 fig4.3 fig4.3-rkc fig4.4 fig4.5 table-costs kappa ## every figure and table of the paper
 
 # Bounce test
 RESTITUTIONS := 1 0.70710678118654757 0.4
@@ -82,6 +82,16 @@ fig4.3: $(F)/fig4.3.svg ## fraction in [0,1]^3 over time, 10 seeds a variant
 $(F)/fig4.3.svg: $(D)/fraction/ranges.tsv plots/fig4.3.gp plots/style.gp
 	$(call draw,fig4.3.gp,$(D)/fraction/ranges.tsv,fig4.3)
 
+# The same figure by rkc, and how long each took
+$(eval $(call ensemble,fraction-rkc,--method rkc))
+fig4.3-rkc: $(F)/fig4.3-rkc.svg $(F)/fig4.3-rkc.md ## fig4.3 by rkc, beside merson
+	@cat $(F)/fig4.3-rkc.md
+$(F)/fig4.3-rkc.svg: $(D)/fraction-rkc/ranges.tsv plots/fig4.3.gp plots/style.gp
+	$(call draw,fig4.3.gp,$(D)/fraction-rkc/ranges.tsv,fig4.3-rkc)
+$(F)/fig4.3-rkc.md: $(D)/fraction/ranges.tsv $(D)/fraction-rkc/ranges.tsv plots/compare.sh
+	@mkdir -p $(F)
+	plots/compare.sh $(D) merson:fraction rkc:fraction-rkc > $@
+
 # Speed-up over threads: the first simulated second, the busiest, three runs
 fig4.5: $(F)/fig4.5.svg ## speed-up and parallel efficiency
 $(F)/fig4.5.svg: $(D)/speedup.tsv plots/fig4.5.gp plots/style.gp
@@ -118,4 +128,5 @@ $(F)/kappa.md: $(KAPPAS:%=$(D)/kappa-%.tsv) plots/kappa.sh
 	@mkdir -p $(F)
 	plots/kappa.sh $(KAPPAS:%=$(D)/kappa-%) > $@
 
-.PHONY: figures fig4.1 table4.1 fig4.2 fig4.3 fig4.4 fig4.5 table-costs kappa
+.PHONY: figures fig4.1 table4.1 fig4.2 fig4.3 fig4.3-rkc fig4.4 fig4.5 table-costs \
+  kappa
