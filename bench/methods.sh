@@ -18,10 +18,12 @@ for variant in basic friction rotation; do
         { n++; cpu += $1; evals += $2; sum += $3; u += $4; uu += $4 * $4 }
         END {
           u /= n
-          se = n > 1 ? sqrt((uu / n - u * u > 0 ? uu / n - u * u : 0) / (n - 1)) : "-"
+          variance = uu / n - u * u
+          se = "-"
+          if (n > 1) se = sprintf("%.4f", sqrt(variance > 0 ? variance / (n - 1) : 0))
           printf "%s\t%s\t%d\t%.3f\t%.0f\t%.1f\t%.4f\t%.4f\t%s\t%.3g\n",
             variant, method, n, cpu / n, evals / n, 1e6 * cpu / evals,
-            sum / n, u, n > 1 ? sprintf("%.4f", se) : "-", base * n / cpu
+            sum / n, u, se, base * n / cpu
         }'
   done
   printf '\n\n'

@@ -15,16 +15,22 @@ static const double damping = 2. / 13;
 /* The estimate grows towards the spectral radius from below. */
 static const double safety = 1.2;
 
+/* Two iterations that differ by less end the search. Contacts that form can
+   make the radius several times larger within a step; a step that was too long
+   for it is rejected. */
+static const double agreement = 0.1;
+
 /* More stages than this gain nothing on a shorter step and let rounding
    grow. */
 enum { MOST_STAGES = 400 };
 
 /* Power iterations at most when nothing is known and when something is, and
    how many steps an estimate serves unless one is rejected. */
-enum { FIRST_ITERATIONS = 50, NEXT_ITERATIONS = 3, ESTIMATE_SERVES = 4 };
+enum { FIRST_ITERATIONS = 50, NEXT_ITERATIONS = 8, ESTIMATE_SERVES = 4 };
 
 struct state {
-  double radius;     /* spectral radius, 0: unknown */
+  bool known;        /* there is an estimate and a direction */
+  double radius;     /* spectral radius */
   size_t steps;      /* since it was estimated */
   double last_start; /* of the last attempt, to know a second one by */
   struct rkc_report report;
@@ -98,24 +104,26 @@ static int power_iterate(struct state *s, double t, const double *y,
 static int estimate_radius(struct state *s, double t, const double *y,
                            const double *f, const gsl_odeiv2_system *sys) {
   size_t most = NEXT_ITERATIONS;
-  if (s->radius == 0) {
+  if (!s->known) {
     most = FIRST_ITERATIONS;
     memcpy(s->work, f, s->dim * sizeof *f);
     if (!(norm(s->dim, f) > 0))
       for (size_t i = 0; i < s->dim; i++)
         s->work[i] = i % 2 ? 1 : -1;
+    s->radius = 0;
   }
   double last = s->radius / safety, radius = 0;
   for (size_t k = 0; k < most; k++) {
     const int status = power_iterate(s, t, y, f, sys, &radius);
     if (status != GSL_SUCCESS)
       return status;
-    if (last > 0 && fabs(radius - last) <= 0.25 * radius)
+    if ((last > 0 || k) && fabs(radius - last) <= agreement * radius)
       break;
     last = radius;
   }
   s->radius = s->report.spectral_radius = safety * radius;
   s->steps = 0;
+  s->known = true;
   return GSL_SUCCESS;
 }
 
@@ -156,12 +164,12 @@ static int apply(void *vstate, size_t dim, double t, double h, double y[],
     status = GSL_ODEIV_FN_EVAL(sys, t, y, f0);
   const bool rejected = t == s->last_start;
   if (status == GSL_SUCCESS &&
-      (s->radius == 0 || rejected || ++s->steps > ESTIMATE_SERVES))
+      (!s->known || rejected || ++s->steps > ESTIMATE_SERVES))
     status = estimate_radius(s, t, y, f0, sys);
   s->last_start = t;
   if (status != GSL_SUCCESS)
     return status;
-  if (fabs(h) * s->radius > rkc_reach(MOST_STAGES))
+  if (!(fabs(h) * s->radius <= rkc_reach(MOST_STAGES)))
     return GSL_FAILURE; /* evolve halves the step */
   const size_t stages = stages_for(fabs(h) * s->radius);
   s->report.stages = stages;
@@ -206,7 +214,7 @@ static int apply(void *vstate, size_t dim, double t, double h, double y[],
     status = GSL_ODEIV_FN_EVAL(sys, t + h, y, end);
   if (status != GSL_SUCCESS) {
     memcpy(y, start, dim * sizeof *y);
-    s->radius = 0; /* the next attempt looks afresh */
+    s->known = false; /* the next attempt looks afresh */
     return status;
   }
   for (size_t i = 0; i < dim; i++)
@@ -223,7 +231,7 @@ static int set_driver(void *state, const gsl_odeiv2_driver *d) {
 static int reset(void *state, size_t dim) {
   (void)dim;
   struct state *s = state;
-  s->radius = 0;
+  s->known = false;
   s->last_start = GSL_NAN;
   return GSL_SUCCESS;
 }

@@ -5,8 +5,10 @@
    of its stiffness. Not in the paper.
 
    The stage number of each step follows from an estimate of the spectral
-   radius of df/dy by nonlinear power iteration, which goes on from the vector
-   it had. Tested in tests/test_rkc.c. */
+   radius of df/dy by nonlinear power iteration, which begins along f and goes
+   on from the vector it had. A fast mode that f has no part of and nothing
+   couples to is not found; step control then shortens the steps. Tested in
+   tests/test_rkc.c. */
 #ifndef RKC_H
 #define RKC_H
 
