@@ -4,8 +4,8 @@
 # IN: columns method, n, threads, speedup, efficiency, independent (what as many
 # runs of one thread keep of their speed side by side: the machine's own limit).
 set loadpath system("dirname '".ARG0."'")
-key_rows = 3
-height = 640
+key_rows = 6
+height = 740
 columns = "method n threads speedup efficiency independent"
 call "style.gp" "fig4.5.gp IN OUT" ARG2 ARG1
 
@@ -37,7 +37,7 @@ plot for [b=1:blocks] ARG1 index b-1 using "threads":"speedup" \
   ARG1 using "threads":"threads" with lines lw 1.5*thin dt 3 lc rgb black \
     title "ideal", \
   NaN with points pt 1 ps symbol lc rgb black \
-    title "independent runs (efficiency)"
+    title "independent runs"
 unset key
 unset logscale y
 set format x "%h"
