@@ -47,6 +47,10 @@ static void *alloc(size_t dim) {
   return s;
 }
 
+/* Vectors of large systems are shared, a chunk at a time, among the threads
+   that OpenMP is set to. */
+enum { CHUNK = 8192, WORTH_SHARING = 8 * CHUNK };
+
 /* y_next = (1-mu-nu) y0 + mu y + nu y_before + h (m f + g f0), in the place
    of y_before */
 MULTIVERSION
@@ -199,7 +203,10 @@ static int apply(void *vstate, size_t dim, double t, double h, double y[],
     const double b = ej / (dj * dj);
     const double mu = 2 * b * w0 / b1, nu = -b / b0;
     const double m = 2 * b * w1 / b1, g = -a1 * m;
-    advance(dim, mu, nu, h * m, h * g, start, now, before, f, f0);
+#pragma omp parallel for schedule(static) if (dim >= WORTH_SHARING)
+    for (size_t c = 0; c < dim; c += CHUNK)
+      advance(GSL_MIN(CHUNK, dim - c), mu, nu, h * m, h * g, start + c, now + c,
+              before + c, f + c, f0 + c);
     double *swap = before;
     before = now;
     now = swap;
@@ -217,6 +224,7 @@ static int apply(void *vstate, size_t dim, double t, double h, double y[],
     s->known = false; /* the next attempt looks afresh */
     return status;
   }
+#pragma omp parallel for schedule(static) if (dim >= WORTH_SHARING)
   for (size_t i = 0; i < dim; i++)
     yerr[i] = 0.8 * (start[i] - y[i]) + 0.4 * h * (f0[i] + end[i]);
   return GSL_SUCCESS;
