@@ -76,7 +76,7 @@ TEST_SCRIPTS := $(wildcard tests/test_*.sh)
 $(B)/tests/%: $(O)/tests/%.o $(LIBRARY)
 	@mkdir -p $(@D)
 	$(LINK)
-.PRECIOUS: $(O)/tests/%.o
+.SECONDARY:
 
 check: all $(TEST_PROGRAMS) ## run the tests (minutes)
 	@B=$(B) tests/run.sh $(TEST_PROGRAMS) $(TEST_SCRIPTS)
