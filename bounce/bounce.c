@@ -31,12 +31,10 @@ static int jacobian(double t, const double y[], double *dfdy, double dfdt[],
                     void *params) {
   (void)t;
   const struct contact_law *c = &((const struct drop *)params)->law;
-  const double e2 = c->restitution * c->restitution;
-  const double sech = 1 / cosh(GSL_MIN(fabs(c->psi * y[1]), 350));
   dfdy[0] = 0;
   dfdy[1] = 1;
   dfdy[2] = -c->kappa * contact_normal(c, y[0], y[1]);
-  dfdy[3] = -contact_repulsion(c, y[0]) * 0.5 * (1 - e2) * c->psi * sech * sech;
+  dfdy[3] = -contact_repulsion(c, y[0]) * contact_rebound_slope(c, -y[1]);
   dfdt[0] = dfdt[1] = 0;
   return GSL_SUCCESS;
 }

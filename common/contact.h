@@ -35,6 +35,14 @@ static inline double contact_rebound(const struct contact_law *c, double v) {
   return e2 + (1 - e2) / (1 + exp(-2 * c->psi * v));
 }
 
+/* d rho[v] / dv, without overflow (s/m). */
+static inline double contact_rebound_slope(const struct contact_law *c,
+                                           double v) {
+  const double e2 = c->restitution * c->restitution;
+  const double sech = 1 / cosh(fmin(fabs(c->psi * v), 350));
+  return 0.5 * (1 - e2) * c->psi * sech * sech;
+}
+
 /* Sigma[v]/v, the limiter (2.8) by the slip speed v >= 0 (s/m). Without the
    division it is smooth at v = 0. */
 static inline double contact_slip(const struct contact_law *c, double v) {

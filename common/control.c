@@ -6,6 +6,7 @@
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
+#include "step_type.h"
 
 /* The paper's control */
 
@@ -54,18 +55,12 @@ static int error_level(void *state, const double y, const double dydt,
   return GSL_SUCCESS;
 }
 
-static int set_driver(void *state, const gsl_odeiv2_driver *d) {
-  (void)state;
-  (void)d;
-  return GSL_SUCCESS;
-}
-
 static const gsl_odeiv2_control_type paper = {.name = "paper",
                                               .alloc = alloc,
                                               .init = init,
                                               .hadjust = adjust,
                                               .errlevel = error_level,
-                                              .set_driver = set_driver,
+                                              .set_driver = step_no_driver,
                                               .free = free};
 
 gsl_odeiv2_control *control_paper_new(double delta) {
@@ -154,7 +149,7 @@ static const gsl_odeiv2_control_type predictive = {.name = "predictive",
                                                    .hadjust = predictive_adjust,
                                                    .errlevel =
                                                        predictive_error_level,
-                                                   .set_driver = set_driver,
+                                                   .set_driver = step_no_driver,
                                                    .free = predictive_free};
 
 gsl_odeiv2_control *control_predictive_new(double abstol, double reltol,

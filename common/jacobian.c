@@ -61,12 +61,8 @@ static void differentiate(const struct contact_law *c,
   for (int i = 0; i < 3; i++)
     rate_u[i] = curvature * (w[i] - rate * n[i]);
 
-  const double e2 = c->restitution * c->restitution;
   const double rho = has.elastic ? 1 : contact_rebound(c, -rate);
-  /* d rho[-rate] / d rate; tanh' = sech^2, written without overflow */
-  const double sech = 1 / cosh(fmin(fabs(c->psi * rate), 350));
-  const double rho_rate =
-      has.elastic ? 0 : -0.5 * (1 - e2) * c->psi * sech * sech;
+  const double rho_rate = has.elastic ? 0 : -contact_rebound_slope(c, -rate);
   add_outer(d->force_u, -c->kappa * f * rho, n, n);
   add_outer(d->force_u, f * rho_rate, n, rate_u);
   add_matrix(f * rho * curvature, p, d->force_u);

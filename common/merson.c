@@ -1,5 +1,6 @@
 #include "merson.h"
 #include "runge_kutta.h"
+#include "step_type.h"
 
 static const double c[] = {0, 1. / 3, 1. / 3, 1. / 2, 1};
 static const double a[] = {1. / 3,                 /**/
@@ -21,8 +22,8 @@ static const gsl_odeiv2_step_type type = {.name = "merson",
                                           .gives_exact_dydt_out = 1,
                                           .alloc = alloc,
                                           .apply = runge_kutta_apply,
-                                          .set_driver = runge_kutta_set_driver,
-                                          .reset = runge_kutta_reset,
+                                          .set_driver = step_no_driver,
+                                          .reset = step_no_reset,
                                           .order = runge_kutta_order,
                                           .free = runge_kutta_free};
 

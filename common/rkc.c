@@ -7,6 +7,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include "multiversion.h"
+#include "step_type.h"
 
 /* Damping keeps |R(z)| below 1 - epsilon/3 in the interior of the interval;
    the value is the authors'. */
@@ -230,12 +231,6 @@ static int apply(void *vstate, size_t dim, double t, double h, double y[],
   return GSL_SUCCESS;
 }
 
-static int set_driver(void *state, const gsl_odeiv2_driver *d) {
-  (void)state;
-  (void)d;
-  return GSL_SUCCESS;
-}
-
 static int reset(void *state, size_t dim) {
   (void)dim;
   struct state *s = state;
@@ -254,7 +249,7 @@ static const gsl_odeiv2_step_type type = {.name = "rkc",
                                           .gives_exact_dydt_out = 1,
                                           .alloc = alloc,
                                           .apply = apply,
-                                          .set_driver = set_driver,
+                                          .set_driver = step_no_driver,
                                           .reset = reset,
                                           .order = order,
                                           .free = free};

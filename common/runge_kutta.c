@@ -64,18 +64,6 @@ int runge_kutta_apply(void *state, size_t dim, double t, double h, double y[],
   return GSL_SUCCESS;
 }
 
-int runge_kutta_set_driver(void *state, const gsl_odeiv2_driver *d) {
-  (void)state;
-  (void)d;
-  return GSL_SUCCESS;
-}
-
-int runge_kutta_reset(void *state, size_t dim) {
-  (void)state;
-  (void)dim;
-  return GSL_SUCCESS;
-}
-
 unsigned runge_kutta_order(void *state) {
   const struct state *s = state;
   return s->tableau->order;

@@ -22,8 +22,6 @@ void *runge_kutta_alloc(const struct tableau *t, size_t dim);
 int runge_kutta_apply(void *state, size_t dim, double t, double h, double y[],
                       double yerr[], const double dydt_in[], double dydt_out[],
                       const gsl_odeiv2_system *sys);
-int runge_kutta_set_driver(void *state, const gsl_odeiv2_driver *d);
-int runge_kutta_reset(void *state, size_t dim);
 unsigned runge_kutta_order(void *state);
 void runge_kutta_free(void *state);
 

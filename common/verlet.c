@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <gsl/gsl_errno.h>
+#include "step_type.h"
 
 struct state {
   size_t row, positions;
@@ -49,18 +50,6 @@ static int apply(void *vstate, size_t dim, double t, double h, double y[],
   return GSL_SUCCESS;
 }
 
-static int set_driver(void *state, const gsl_odeiv2_driver *d) {
-  (void)state;
-  (void)d;
-  return GSL_SUCCESS;
-}
-
-static int reset(void *state, size_t dim) {
-  (void)state;
-  (void)dim;
-  return GSL_SUCCESS;
-}
-
 static unsigned order(void *state) {
   (void)state;
   return 2;
@@ -71,8 +60,8 @@ static const gsl_odeiv2_step_type type = {.name = "verlet",
                                           .gives_exact_dydt_out = 0,
                                           .alloc = alloc,
                                           .apply = apply,
-                                          .set_driver = set_driver,
-                                          .reset = reset,
+                                          .set_driver = step_no_driver,
+                                          .reset = step_no_reset,
                                           .order = order,
                                           .free = free};
 
