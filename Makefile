@@ -7,7 +7,7 @@ SHELL := /bin/bash
 CC ?= gcc
 CFLAGS ?= -O3 -g
 WARNINGS := -Wall -Wextra
-INCLUDES := -Icommon -Ianalyze -Isettle -Itests
+INCLUDES := -Icommon -Ianalyze -Isettle -Iprecision -Istability -Itests
 # GSL elsewhere than the compiler looks: GSL_CFLAGS=-I... GSL_LIBS='-L... ...'
 GSL_CFLAGS ?=
 GSL_LIBS ?= -lgsl -lgslcblas -lm
@@ -65,6 +65,8 @@ $(B)/bounce: $(patsubst %.c,$(O)/%.o,$(wildcard bounce/*.c)) $(LIBRARY)
 $(B)/settle: $(patsubst %.c,$(O)/%.o,$(wildcard settle/*.c)) $(LIBRARY)
 	$(LINK)
 $(B)/analyze: $(patsubst %.c,$(O)/%.o,$(wildcard analyze/*.c)) $(LIBRARY)
+	$(LINK)
+$(B)/precision: $(patsubst %.c,$(O)/%.o,$(wildcard precision/*.c)) $(LIBRARY)
 	$(LINK)
 
 -include $(shell find $(B) -name '*.d' 2>/dev/null)

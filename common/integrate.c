@@ -25,7 +25,7 @@ struct integrator {
   gsl_odeiv2_control *control; /* NULL: fixed step */
   gsl_odeiv2_evolve *evolve;
   double (*step_limit)(const double y[], const double dydt[], void *params);
-  double hmax, fixed;
+  double hmax, fixed, stop;
   double t, h, last_step;
   struct integrate_counts counts;
   /* The last step from start to y, for the interpolation; a failed attempt
@@ -116,6 +116,7 @@ int integrate_alloc(struct integrator **out, const struct integrate_options *o,
   it->step_limit = problem->step_limit;
   it->hmax = o->hmax > 0 ? o->hmax : GSL_POSINF;
   it->fixed = o->step;
+  it->stop = GSL_DBL_MAX;
   it->t = t;
   it->h = o->hinit;
   memcpy(it->y, y, dim * sizeof *y);
@@ -144,12 +145,13 @@ static int attempt(struct integrator *it, double *h) {
   const unsigned long failed = e->failed_steps;
   /* not apply_fixed_step, which evaluates the start of every step anew */
   int status = gsl_odeiv2_evolve_apply(e, it->control, it->step, &it->system,
-                                       &it->t, GSL_DBL_MAX, h, it->y);
+                                       &it->t, it->stop, h, it->y);
   it->counts.rejected += e->failed_steps - failed;
   /* evolve shortens a fixed step that fails, and takes steps too short to move
      the time */
   if (status == GSL_SUCCESS &&
-      (!(it->t > t) || (it->fixed > 0 && e->last_step != it->fixed)))
+      (!(it->t > t) || (it->fixed > 0 && e->last_step != it->fixed &&
+                        it->t != it->stop)))
     status = GSL_FAILURE;
   if (status != GSL_SUCCESS) {
     memcpy(it->y, e->y0, it->system.dimension * sizeof *it->y);
@@ -177,10 +179,19 @@ static int first_trial(struct integrator *it, double *h) {
   return GSL_SUCCESS;
 }
 
+int integrate_stop(struct integrator *it, double t) {
+  if (!(t > it->t))
+    return GSL_EINVAL;
+  it->stop = t;
+  return GSL_SUCCESS;
+}
+
 int integrate_step(struct integrator *it) {
   const gsl_odeiv2_evolve *e = it->evolve;
   const size_t bytes = it->system.dimension * sizeof *it->y;
   const double start = it->t;
+  if (start == it->stop)
+    return GSL_EDOM;
   /* Below this a step no longer moves t. */
   const double smallest = 4 * GSL_DBL_EPSILON * GSL_MAX(fabs(start), 1e-3);
   double h;

@@ -58,6 +58,11 @@ void integrate_free(struct integrator *it);
    control or a right-hand side that is not finite. */
 int integrate_step(struct integrator *it);
 
+/* Makes the step that would pass t > integrate_time end there instead, so that
+   the state at t is the method's own and not an interpolation; steps after it
+   give GSL_EDOM until there is a new stop. GSL_EINVAL for an earlier t. */
+int integrate_stop(struct integrator *it, double t);
+
 double integrate_time(const struct integrator *it);
 const double *integrate_state(const struct integrator *it);
 double integrate_last_step(const struct integrator *it);

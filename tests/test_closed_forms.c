@@ -22,8 +22,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "check.h"
-#include "dynamics.h"
-#include "integrate.h"
+#include "motion.h"
 
 #define ULPS(n) ((n)*DBL_EPSILON)
 #define COUNT(array) (sizeof(array) / sizeof *(array))
@@ -38,21 +37,9 @@ static const double g = 9.81;
 struct world {
   struct scene scene;
   struct bed bed;
-  struct dynamics *dynamics;
-  struct integrator *integrator;
-  double *scale;
+  struct motion motion;
   double hmax; /* 0: none */
 };
-
-static int rhs(double t, const double y[], double dydt[], void *params) {
-  return dynamics_rhs(t, y, dydt, ((struct world *)params)->dynamics);
-}
-
-/* No sphere passes the width of a contact in one step. */
-static double step_limit(const double y[], const double dydt[], void *params) {
-  const struct world *w = params;
-  return dynamics_step_limit(w->dynamics, y, dydt, 1 / w->scene.law.kappa);
-}
 
 static struct world world_new(size_t n, double radius) {
   struct world w = {.scene = scene_default()};
@@ -74,54 +61,37 @@ static void world_no_gravity(struct world *w) {
   memset(w->scene.gravity, 0, sizeof w->scene.gravity);
 }
 
-/* w stays where it is from now on. A step > 0 is a fixed one. */
+/* w stays where it is from now on. A step > 0 is a fixed one; no sphere passes
+   the width of a contact in a step of another. */
 static void world_start(struct world *w, const char *method, double step) {
-  const double kappa = w->scene.law.kappa;
-  const struct dynamics_options threads = {.threads = 1};
-  w->dynamics = dynamics_alloc(&w->scene, &w->bed, &threads);
-  const size_t dim = dynamics_dimension(w->dynamics);
-  const size_t row = dynamics_stride(w->dynamics);
-  w->scale = malloc(dim * sizeof *w->scale);
-  double *y = malloc(dim * sizeof *y);
-  for (size_t i = 0; i < dim; i++)
-    w->scale[i] = i % row < 3   ? 1 / kappa
-                  : i % row < 6 ? 1
-                                : 1 / w->bed.r[i / row];
-  dynamics_pack(w->dynamics, &w->bed, y);
   const struct integrate_options o = {.method = method,
                                       .control = "standard",
                                       .tol = TOL,
                                       .hinit = 1e-4,
                                       .hmax = w->hmax,
                                       .step = step};
-  const struct integrate_problem p = {.system = {rhs, NULL, dim, w},
-                                      .scale = w->scale,
-                                      .row = row,
-                                      .positions = 3,
-                                      .step_limit = step_limit};
-  if (integrate_alloc(&w->integrator, &o, &p, 0, y) != GSL_SUCCESS)
+  if (motion_start(&w->motion, &w->scene, &w->bed, &o,
+                   &(struct dynamics_options){.threads = 1},
+                   1 / w->scene.law.kappa) != GSL_SUCCESS)
     abort();
-  free(y);
 }
 
 static void world_free(struct world *w) {
-  integrate_free(w->integrator);
-  dynamics_free(w->dynamics);
+  motion_free(&w->motion);
   scene_free(&w->scene);
   bed_free(&w->bed);
-  free(w->scale);
 }
 
 static const double *state(const struct world *w) {
-  return integrate_state(w->integrator);
+  return integrate_state(w->motion.integrator);
 }
 
 static double now(const struct world *w) {
-  return integrate_time(w->integrator);
+  return integrate_time(w->motion.integrator);
 }
 
 static size_t steps(const struct world *w) {
-  return integrate_counts(w->integrator).accepted;
+  return integrate_counts(w->motion.integrator).accepted;
 }
 
 /* The sum of all local errors so far, in units of an unknown's scale. */
@@ -133,7 +103,7 @@ static double errors(const struct world *w) {
 static const size_t most_steps = 200000;
 
 static bool step(struct world *w) {
-  return (integrate_step(w->integrator) == GSL_SUCCESS &&
+  return (integrate_step(w->motion.integrator) == GSL_SUCCESS &&
           steps(w) < most_steps) ||
          CHECK(!"a step is taken");
 }
@@ -148,8 +118,8 @@ static bool reach(struct world *w, double t) {
 
 static double component_at(const struct world *w, double t, size_t k) {
   double y[64];
-  if (dynamics_dimension(w->dynamics) > COUNT(y) ||
-      integrate_at(w->integrator, t, y) != GSL_SUCCESS)
+  if (dynamics_dimension(w->motion.dynamics) > COUNT(y) ||
+      integrate_at(w->motion.integrator, t, y) != GSL_SUCCESS)
     return GSL_NAN;
   return y[k];
 }
@@ -276,7 +246,7 @@ static void elastic_contact(const struct elastic *c, const char *method) {
                     GSL_MAX(c->v0, 1));
     worst = e / tol > worst || isnan(e) ? e / tol : worst;
     lowest = GSL_MIN(lowest, gap);
-    const double before = t - integrate_last_step(w.integrator);
+    const double before = t - integrate_last_step(w.motion.integrator);
     if (rate >= 0 && isnan(turn)) {
       turn = find_root(elastic_rate, &w, before, t);
       /* between the nodes: h^4/384 times the fourth derivative, for tanh
@@ -798,13 +768,14 @@ static void energy(unsigned long seed, const char *method) {
     }
   }
   world_start(&w, method, 0);
-  const double before = dynamics_kinetic(w.dynamics, state(&w)) +
-                        dynamics_potential(w.dynamics, state(&w));
+  const double before = dynamics_kinetic(w.motion.dynamics, state(&w)) +
+                        dynamics_potential(w.motion.dynamics, state(&w));
   double moved = 0, tol = ULPS(100) * before, contacts = 0;
   while (now(&w) < 1 && step(&w)) {
-    const double *y = state(&w), *dydt = integrate_derivative(w.integrator);
-    const double kinetic = dynamics_kinetic(w.dynamics, y);
-    const double e = kinetic + dynamics_potential(w.dynamics, y);
+    const double *y = state(&w),
+                 *dydt = integrate_derivative(w.motion.integrator);
+    const double kinetic = dynamics_kinetic(w.motion.dynamics, y);
+    const double e = kinetic + dynamics_potential(w.motion.dynamics, y);
     if (!(fabs(e - before) <= moved))
       moved = fabs(e - before);
     contacts = GSL_MAX(contacts, before - kinetic);
@@ -900,7 +871,8 @@ static double rebound_apex(double f0, double kappa, double e,
     const double v = state(&w)[5];
     if (rising && v <= 0)
       apex = find_root(speed_at, &w,
-                       now(&w) - integrate_last_step(w.integrator), now(&w));
+                       now(&w) - integrate_last_step(w.motion.integrator),
+                       now(&w));
     rising = rising || v > 0;
   }
   world_free(&w);
@@ -1001,7 +973,7 @@ static void test_free_fall(void) {
         world_start(&w, all[m], fixed ? 0.01 : 0);
         CHECK(reach(&w, 1));
         const double t = now(&w), *y = state(&w);
-        const size_t row = dynamics_stride(w.dynamics);
+        const size_t row = dynamics_stride(w.motion.dynamics);
         /* a step of s stages is a sum of so many terms of size 20 */
         const double tol = ULPS(20) * 4 * (double)(steps(&w) + 1);
         for (size_t i = 0; i < 2; i++)

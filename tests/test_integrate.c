@@ -987,8 +987,53 @@ static void test_single_failure(void) {
     }
 }
 
+/* --- a stop ----------------------------------------------------------------*/
+
+/* Steps before the one that would pass the stop are those of a free run; that
+   one ends there exactly, and none follows until there is a new stop. */
+static void test_stop(void) {
+  const double stops[] = {1.7, 1.7 + 1. / 3};
+  for (size_t m = 0; integrate_methods[m]; m++) {
+    const bool fixed = !strcmp(integrate_methods[m], "verlet");
+    struct oscillators o = {0}, q = {0};
+    struct integrate_problem p = oscillators(&o), free_run = oscillators(&q);
+    struct integrate_options opt = options(integrate_methods[m]);
+    opt.step = fixed ? 1. / 1024 : 0;
+    struct integrator *it = start_oscillators(&opt, &p),
+                      *other = start_oscillators(&opt, &free_run);
+    CHECK(integrate_stop(it, 0) == GSL_EINVAL);
+    CHECK(integrate_stop(it, GSL_NAN) == GSL_EINVAL);
+    CHECK(integrate_stop(it, stops[0]) == GSL_SUCCESS);
+    bool equal = true;
+    while (integrate_time(it) < stops[0]) {
+      CHECK(integrate_step(it) == GSL_SUCCESS);
+      CHECK(integrate_step(other) == GSL_SUCCESS);
+      if (integrate_time(it) < stops[0])
+        equal = equal && same(integrate_state(it), integrate_state(other));
+      else
+        CHECK(integrate_time(other) >= stops[0]);
+    }
+    CHECK(equal);
+    for (size_t k = 0; k < COUNT(stops); k++) {
+      CHECK(run(it, stops[k]));
+      CHECK(integrate_time(it) == stops[k]);
+      /* verlet: (h w)^2/24 w t at the faster frequency, 2 */
+      CHECK(error_now(it) <
+            (fixed
+                 ? 4 * pow(opt.step, 2)
+                 : 4 * 1.1 * opt.tol * (double)integrate_counts(it).accepted));
+      CHECK(integrate_step(it) == GSL_EDOM);
+      if (k == 0)
+        CHECK(integrate_stop(it, stops[1]) == GSL_SUCCESS);
+    }
+    integrate_free(it);
+    integrate_free(other);
+  }
+}
+
 int main(void) {
   gsl_set_error_handler_off();
+  test_stop();
   test_tolerance();
   test_stiff();
   test_scale();

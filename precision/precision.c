@@ -1,0 +1,172 @@
+/* precision: one scene, one method, a ladder of tolerances or fixed steps; a
+   row a run with its error and its cost. */
+#define _POSIX_C_SOURCE 200809L
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <gsl/gsl_errno.h>
+#include "scenes.h"
+#include "shared_options.h"
+#include "version.h"
+
+static const struct precision_scene *const scenes[] = {&scene_collision};
+
+enum { SCENES = sizeof scenes / sizeof *scenes, LADDER = 16 };
+
+/* A run is repeated until so much CPU time is spent (s), for the clock. */
+static const double timed = 0.02;
+
+struct ladder {
+  size_t count;
+  double at[LADDER];
+};
+
+static int add_rung(const struct option_list *v, void *context) {
+  struct ladder *l = context;
+  if (l->count == LADDER)
+    return GSL_EINVAL;
+  l->at[l->count++] = v->at[0];
+  return GSL_SUCCESS;
+}
+
+static double cpu_seconds(void) {
+  struct timespec t;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static const struct precision_scene *find_scene(const char *name) {
+  for (size_t i = 0; i < SCENES; i++)
+    if (name && !strcmp(name, scenes[i]->name))
+      return scenes[i];
+  return NULL;
+}
+
+static void print_header(const struct option_spec *options,
+                         const struct precision_scene *s,
+                         const double reference_error[]) {
+  char text[256];
+  printf("# program=precision\n# version=%s\n# scene=%s\n# about=%s\n",
+         DEM_VERSION, s->name, s->summary);
+  for (const struct option_spec *o = options; o->name; o++)
+    if (o->parameter && !o->each) {
+      option_text(o, text, sizeof text);
+      printf("# %s=%s\n", o->name, text);
+    }
+  for (size_t e = 0; s->errors[e]; e++)
+    printf("# reference_%s=%.3g\n", s->errors[e], reference_error[e]);
+  printf("method\ttol\tstep");
+  for (size_t e = 0; s->errors[e]; e++)
+    printf("\t%s", s->errors[e]);
+  puts("\tevaluations\tcpu_seconds\taccepted\trejected\tstatus");
+}
+
+static void print_row(const struct precision_scene *s,
+                      const struct precision_case *c, const void *reference) {
+  struct precision_result r;
+  const double start = cpu_seconds();
+  size_t runs = 0;
+  double spent;
+  do {
+    r = (struct precision_result){.status = "ok"};
+    const int status = s->run(c, reference, &r);
+    if (status == GSL_EINVAL)
+      die(EXIT_USAGE, "%s: method %s does not fit", s->name,
+          c->integrate->method);
+    if (status != GSL_SUCCESS)
+      die(EXIT_IO, "%s: %s", s->name, gsl_strerror(status));
+    runs++;
+    spent = cpu_seconds() - start;
+  } while (spent < timed);
+  printf("%s\t%.3g\t%.3g", c->integrate->method, c->integrate->tol,
+         c->integrate->step);
+  for (size_t e = 0; s->errors[e]; e++) {
+    printf("\t%.6g", r.error[e]);
+    if (!isfinite(r.error[e]) && !strcmp(r.status, "ok"))
+      r.status = "nan";
+  }
+  printf("\t%zu\t%.6g\t%zu\t%zu\t%s\n", r.evaluations, spent / (double)runs,
+         r.accepted, r.rejected, r.status);
+  fflush(stdout);
+}
+
+int main(int argc, char **argv) {
+  const struct precision_scene *s = argc > 1 ? find_scene(argv[1]) : NULL;
+  const struct scene standard = scene_default();
+  struct integrate_options integrate = {
+      .method = "merson", .control = "standard", .hinit = 1e-3};
+  struct precision_case c = {.integrate = &integrate,
+                             .law = standard.law,
+                             .gravity = -standard.gravity[2],
+                             .count = 1,
+                             .seed = 1};
+  if (s && s->defaults)
+    s->defaults(&c);
+  double travel = 0;
+  struct ladder tolerances = {0}, steps = {0};
+  /* clang-format off */
+  struct option_spec options[] = {
+      LAW_OPTIONS(c.law),
+      NUMBER("friction", &c.law.friction, 0, OPTION_MANY, "",
+             "friction coefficient phi"),
+      POSITIVE("vmin", &c.law.vmin, "m/s", "slip speed of full friction"),
+      POSITIVE("lmax", &c.law.lmax, "m",
+               "gap beyond which contacts are skipped"),
+      NUMBER("gravity", &c.gravity, 0, OPTION_MANY, "m/s^2", "gravity"),
+      NUMBER("time", &c.time, 0, OPTION_MANY, "s; 0: by scene", "end"),
+      NUMBER("speed", &c.speed, 0, OPTION_MANY, "m/s", "speed at the start"),
+      {.name = "count", .type = OPTION_SIZE, .value = &c.count, .least = 1,
+       .most = 1e6, .help = "spheres", .parameter = true},
+      {.name = "seed", .type = OPTION_SIZE, .value = &c.seed,
+       .most = 4294967295.0, .help = "of the random start",
+       .parameter = true},
+      {.name = "rung", .type = OPTION_LIST, .least = 1, .most = 1,
+       .unit = "up to 16 times", .help = "a tolerance to run with",
+       .each = add_rung, .context = &tolerances},
+      {.name = "step-rung", .type = OPTION_LIST, .least = 1, .most = 1,
+       .unit = "s, up to 16 times", .help = "a fixed step to run with",
+       .each = add_rung, .context = &steps},
+      INTEGRATION_OPTIONS(integrate, travel),
+      {0}};
+  /* clang-format on */
+  const struct program program = {
+      .name = "precision",
+      .summary = "One scene and method over tolerances (--rung) or fixed steps "
+                 "(--step-rung);\na row a run: error and cost.",
+      .usage = "SCENE [OPTION...]",
+      .example = "precision collision --method rk8pd --rung 1e-4 --rung 1e-8",
+      .options = options};
+  const int operand = options_parse(&program, argc, argv);
+  if (operand != argc - 1 || !(s = find_scene(argv[operand]))) {
+    for (size_t i = 0; i < SCENES; i++)
+      fprintf(stderr, "%-12s %s\n", scenes[i]->name, scenes[i]->summary);
+    die(EXIT_USAGE, "expected one of these scenes");
+  }
+  c.travel = travel / c.law.kappa;
+  integrate_defaults(&integrate);
+  if (!tolerances.count && !steps.count)
+    die(EXIT_USAGE, "expected --rung or --step-rung");
+
+  void *reference = NULL;
+  double reference_error[PRECISION_ERRORS] = {0};
+  if (s->prepare) {
+    const int status = s->prepare(&c, &reference, reference_error);
+    if (status != GSL_SUCCESS)
+      die(EXIT_IO, "%s: no reference: %s", s->name, gsl_strerror(status));
+  }
+  print_header(options, s, reference_error);
+  for (size_t k = 0; k < tolerances.count; k++) {
+    integrate.tol = tolerances.at[k];
+    integrate.step = 0;
+    print_row(s, &c, reference);
+  }
+  for (size_t k = 0; k < steps.count; k++) {
+    integrate.step = steps.at[k];
+    print_row(s, &c, reference);
+  }
+  free(reference);
+  finish_output();
+  return EXIT_DONE;
+}

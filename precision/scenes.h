@@ -1,0 +1,49 @@
+/* Scenes of the work-precision charts: each in a file of its own, each with an
+   error that needs no faith. The main program runs a scene with one method over
+   a ladder of tolerances or steps and prints a row a run. */
+#ifndef SCENES_H
+#define SCENES_H
+
+#include "integrate.h"
+#include "scene.h"
+
+enum { PRECISION_ERRORS = 4 };
+
+/* What is asked for. */
+struct precision_case {
+  const struct integrate_options *integrate;
+  struct contact_law law;
+  double gravity; /* m/s^2 */
+  double travel;  /* m, 0: no limit */
+  double time;    /* s */
+  double speed;   /* m/s */
+  size_t count;   /* spheres */
+  size_t seed;
+};
+
+struct precision_result {
+  double error[PRECISION_ERRORS]; /* as precision_scene.errors names them */
+  size_t evaluations, accepted, rejected;
+  const char *status; /* one word: "ok", or how it failed */
+};
+
+struct precision_scene {
+  const char *name, *summary;
+  /* columns: error_SOMETHING, NULL-terminated */
+  const char *errors[PRECISION_ERRORS + 1];
+  /* Sets the scene's own defaults, before the command line is read. */
+  void (*defaults)(struct precision_case *c);
+  /* Computes what the runs are compared with into *reference, which run gets
+     and free() takes, and how far off it may be itself; NULL where there is
+     nothing to prepare. */
+  int (*prepare)(const struct precision_case *c, void **reference,
+                 double reference_error[]);
+  /* One run. GSL_SUCCESS also where the method fails: then status says how;
+     another code ends the program. */
+  int (*run)(const struct precision_case *c, const void *reference,
+             struct precision_result *r);
+};
+
+extern const struct precision_scene scene_collision;
+
+#endif
