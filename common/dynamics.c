@@ -395,36 +395,48 @@ static bool evaluate_all_pairs(struct dynamics *d, const double *y,
   return finite;
 }
 
+/* Where the rates of an evaluation go: all into dydt, or a few rows at a time,
+   while they are in the cache, into a linear combination. */
+struct destination {
+  double *dydt; /* NULL for the combination */
+  const struct stage *stage;
+  double *out;
+};
+
 /* A part a few rows at a time, each finished while it is in the cache: a row's
    pairs as second partner belong to rows before it. */
 static bool evaluate_part(const struct dynamics *d, size_t p, const double *y,
-                          double *dydt) {
+                          const struct destination *to) {
   const struct kernel *kernel = d->kernel;
   const struct kernel_data *k = &d->k;
   const struct kernel_part *part = &d->part[p];
   kernel->add_pairs(k, y, d->in_i + d->incoming[p], d->in_j + d->incoming[p],
                     d->incoming[p + 1] - d->incoming[p], part);
   bool finite = true;
+  double few[ROWS * 9];
   for (size_t i = part->from; i < part->to; i += ROWS) {
-    const size_t end = GSL_MIN(i + ROWS, part->to);
-    const size_t from = k->first[i], to = k->first[end];
-    kernel->add_pairs(k, y, k->i + from, k->j + from, to - from, part);
+    const size_t end = GSL_MIN(i + ROWS, part->to), at = i * k->stride;
+    const size_t first = k->first[i], last = k->first[end];
+    double *rates = to->dydt ? to->dydt + at : few;
+    kernel->add_pairs(k, y, k->i + first, k->j + first, last - first, part);
     kernel->add_walls(k, y, i, end, part);
-    finite = kernel->finish(k, y, dydt, i, end, part) && finite;
+    finite = kernel->finish(k, y, rates, i, end, part) && finite;
+    if (!to->dydt)
+      stage_combine(to->stage, at, (end - i) * k->stride, y, rates, to->out);
   }
   return finite;
 }
 
 static bool evaluate_list(const struct dynamics *d, const double *y,
-                          double *dydt) {
+                          const struct destination *to) {
   const int threads = d->options.threads;
   if (threads == 1)
-    return evaluate_part(d, 0, y, dydt);
+    return evaluate_part(d, 0, y, to);
   bool finite = true;
 #pragma omp parallel for num_threads(threads) schedule(static, 1)              \
     reduction(&& : finite)
   for (int p = 0; p < threads; p++)
-    finite = evaluate_part(d, (size_t)p, y, dydt) && finite;
+    finite = evaluate_part(d, (size_t)p, y, to) && finite;
   return finite;
 }
 
@@ -438,7 +450,21 @@ int dynamics_rhs(double t, const double y[], double dydt[], void *params) {
   if (status != GSL_SUCCESS)
     return status;
   d->age++;
-  return evaluate_list(d, y, dydt) ? GSL_SUCCESS : GSL_EBADFUNC;
+  const struct destination to = {.dydt = dydt};
+  return evaluate_list(d, y, &to) ? GSL_SUCCESS : GSL_EBADFUNC;
+}
+
+int dynamics_stage(double t, const double y[], const struct stage *stage,
+                   double out[], void *params) {
+  (void)t;
+  struct dynamics *d = params;
+  d->counts.evaluations++;
+  const int status = update_list(d, y);
+  if (status != GSL_SUCCESS)
+    return status;
+  d->age++;
+  const struct destination to = {.stage = stage, .out = out};
+  return evaluate_list(d, y, &to) ? GSL_SUCCESS : GSL_EBADFUNC;
 }
 
 int dynamics_jacobian(double t, const double y[], double *dfdy, double dfdt[],

@@ -14,6 +14,7 @@
 #include <stddef.h>
 #include "bed.h"
 #include "scene.h"
+#include "stage.h"
 
 struct dynamics;
 
@@ -46,6 +47,10 @@ void dynamics_unpack(const struct dynamics *d, const double y[], struct bed *b);
 /* dydt = f(y), for gsl_odeiv2_system with params a struct dynamics. Returns
    GSL_SUCCESS, GSL_EBADFUNC where the result is not finite, GSL_ENOMEM. */
 int dynamics_rhs(double t, const double y[], double dydt[], void *params);
+
+/* The same within a stage of a method, in one pass over the memory. Not for all
+   pairs. */
+stage_function dynamics_stage;
 
 /* df/dy, dense, row by row, dimension^2 doubles; dfdt is 0. Errors as above. */
 int dynamics_jacobian(double t, const double y[], double *dfdy, double dfdt[],

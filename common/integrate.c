@@ -130,6 +130,8 @@ int integrate_alloc(struct integrator **out, const struct integrate_options *o,
   }
   if (type == verlet)
     verlet_set_layout(it->step, problem->row, problem->positions);
+  if (type == rkc)
+    rkc_set_stage(it->step, problem->stage);
   it->driver = (gsl_odeiv2_driver){
       .sys = &it->system, .s = it->step, .c = it->control, .e = it->evolve};
   gsl_odeiv2_step_set_driver(it->step, &it->driver);
@@ -150,8 +152,8 @@ static int attempt(struct integrator *it, double *h) {
   /* evolve shortens a fixed step that fails, and takes steps too short to move
      the time */
   if (status == GSL_SUCCESS &&
-      (!(it->t > t) || (it->fixed > 0 && e->last_step != it->fixed &&
-                        it->t != it->stop)))
+      (!(it->t > t) ||
+       (it->fixed > 0 && e->last_step != it->fixed && it->t != it->stop)))
     status = GSL_FAILURE;
   if (status != GSL_SUCCESS) {
     memcpy(it->y, e->y0, it->system.dimension * sizeof *it->y);

@@ -7,6 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <gsl/gsl_odeiv2.h>
+#include "stage.h"
 
 /* Names of methods and controls, NULL-terminated. */
 extern const char *const integrate_methods[];
@@ -36,6 +37,9 @@ struct integrate_problem {
   size_t row, positions;
   /* Longest step allowed at a state with the given derivative, or NULL. */
   double (*step_limit)(const double y[], const double dydt[], void *params);
+  /* The right-hand side within a stage, for methods that make use of it, or
+     NULL. */
+  stage_function *stage;
 };
 
 struct integrate_counts {

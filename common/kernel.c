@@ -365,14 +365,14 @@ INLINE void add_walls(const struct kernel_data *k, const double *y, size_t from,
 }
 
 /* (2.13)-(2.15): torque = -r n x f, I = 2 m r^2 / 5 */
-INLINE bool finish(const struct kernel_data *k, const double *y, double *dydt,
+INLINE bool finish(const struct kernel_data *k, const double *y, double *rates,
                    size_t from, size_t to, const struct kernel_part *part,
                    const struct kernel_features has) {
   const size_t stride = has.rotation ? 9 : 6;
   double checksum = 0;
   for (size_t i = from; i < to; i++) {
     const double *state = y + i * stride;
-    double *rate = dydt + i * stride, *sum = sum_of(part, i);
+    double *rate = rates + (i - from) * stride, *sum = sum_of(part, i);
     const double inverse_mass = 1 / k->mass[i];
     for (int c = 0; c < 3; c++) {
       rate[c] = state[3 + c];
@@ -432,13 +432,13 @@ static void add_walls_any(const struct kernel_data *k, const double *y,
 }
 
 static bool finish_any(const struct kernel_data *k, const double *y,
-                       double *dydt, size_t from, size_t to,
+                       double *rates, size_t from, size_t to,
                        const struct kernel_part *part) {
   struct kernel_features has = {.rotation = true};
   if (k->has.rotation)
-    return finish(k, y, dydt, from, to, part, has);
+    return finish(k, y, rates, from, to, part, has);
   has.rotation = false;
-  return finish(k, y, dydt, from, to, part, has);
+  return finish(k, y, rates, from, to, part, has);
 }
 
 extern const struct kernel JOIN(kernel_, KERNEL_ISA);

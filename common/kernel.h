@@ -60,9 +60,9 @@ struct kernel {
   /* Adds the contacts of rows [from, to) with walls. */
   void (*add_walls)(const struct kernel_data *k, const double *y, size_t from,
                     size_t to, const struct kernel_part *part);
-  /* Turns the sums of rows [from, to) into rates and zeroes them; false if not
-     all rates are finite. */
-  bool (*finish)(const struct kernel_data *k, const double *y, double *dydt,
+  /* Turns the sums of rows [from, to) into rates, the first at rates[0], and
+     zeroes them; false if not all rates are finite. */
+  bool (*finish)(const struct kernel_data *k, const double *y, double *rates,
                  size_t from, size_t to, const struct kernel_part *part);
 };
 

@@ -7,6 +7,11 @@ static int rhs(double t, const double y[], double dydt[], void *params) {
   return dynamics_rhs(t, y, dydt, ((struct motion *)params)->dynamics);
 }
 
+static int stage(double t, const double y[], const struct stage *s,
+                 double out[], void *params) {
+  return dynamics_stage(t, y, s, out, ((struct motion *)params)->dynamics);
+}
+
 static int jacobian(double t, const double y[], double *dfdy, double dfdt[],
                     void *params) {
   return dynamics_jacobian(t, y, dfdy, dfdt,
@@ -39,7 +44,8 @@ int motion_start(struct motion *m, const struct scene *s, const struct bed *b,
                                  .scale = scale,
                                  .row = dynamics_stride(m->dynamics),
                                  .positions = 3,
-                                 .step_limit = travel > 0 ? step_limit : NULL},
+                                 .step_limit = travel > 0 ? step_limit : NULL,
+                                 .stage = d->all_pairs ? NULL : stage},
                              b->t, y);
   }
   free(y);

@@ -30,10 +30,11 @@ enum { MOST_STAGES = 400 };
 enum { FIRST_ITERATIONS = 50, NEXT_ITERATIONS = 8, ESTIMATE_SERVES = 4 };
 
 struct state {
-  bool known;        /* there is an estimate and a direction */
-  double radius;     /* spectral radius */
-  size_t steps;      /* since it was estimated */
-  double last_start; /* of the last attempt, to know a second one by */
+  bool known;            /* there is an estimate and a direction */
+  double radius;         /* spectral radius */
+  size_t steps;          /* since it was estimated */
+  stage_function *stage; /* of the system, or NULL */
+  double last_start;     /* of the last attempt, to know a second one by */
   struct rkc_report report;
   size_t dim;
   double work[]; /* direction, y at the start, two stages, slopes: 6 dim */
@@ -52,18 +53,18 @@ static void *alloc(size_t dim) {
    that OpenMP is set to. */
 enum { CHUNK = 8192, WORTH_SHARING = 8 * CHUNK };
 
-/* y_next = (1-mu-nu) y0 + mu y + nu y_before + h (m f + g f0), in the place
-   of y_before */
-MULTIVERSION
-static void advance(size_t dim, double mu, double nu, double m, double g,
-                    const double *restrict y0, const double *restrict y,
-                    double *restrict before, const double *restrict f,
-                    const double *restrict f0) {
-  const double rest = 1 - mu - nu;
-#pragma omp simd
-  for (size_t i = 0; i < dim; i++)
-    before[i] =
-        rest * y0[i] + mu * y[i] + nu * before[i] + m * f[i] + g * f0[i];
+/* As a system without a stage function does it; f is scratch. */
+static int stage_by_parts(double t, const double y[], const struct stage *s,
+                          double out[], const gsl_odeiv2_system *sys,
+                          double *f) {
+  const size_t dim = sys->dimension;
+  const int status = GSL_ODEIV_FN_EVAL(sys, t, y, f);
+  if (status != GSL_SUCCESS)
+    return status;
+#pragma omp parallel for schedule(static) if (dim >= WORTH_SHARING)
+  for (size_t c = 0; c < dim; c += CHUNK)
+    stage_combine(s, c, GSL_MIN(CHUNK, dim - c), y, f + c, out);
+  return GSL_SUCCESS;
 }
 
 MULTIVERSION
@@ -191,9 +192,6 @@ static int apply(void *vstate, size_t dim, double t, double h, double y[],
   memcpy(before, start, dim * sizeof *start);
   euler(dim, h * w1 * b1, start, f0, now);
   for (size_t j = 2; j <= stages; j++) {
-    status = GSL_ODEIV_FN_EVAL(sys, t + h * time1, now, f);
-    if (status != GSL_SUCCESS)
-      break;
     const double a1 = 1 - b1 * t1; /* of the stage before */
     const double tj = 2 * w0 * t1 - t0;
     const double dj = 2 * w0 * d1 - d0 + 2 * t1;
@@ -204,10 +202,18 @@ static int apply(void *vstate, size_t dim, double t, double h, double y[],
     const double b = ej / (dj * dj);
     const double mu = 2 * b * w0 / b1, nu = -b / b0;
     const double m = 2 * b * w1 / b1, g = -a1 * m;
-#pragma omp parallel for schedule(static) if (dim >= WORTH_SHARING)
-    for (size_t c = 0; c < dim; c += CHUNK)
-      advance(GSL_MIN(CHUNK, dim - c), mu, nu, h * m, h * g, start + c, now + c,
-              before + c, f + c, f0 + c);
+    const struct stage next = {.start = start,
+                               .rate = f0,
+                               .of_start = 1 - mu - nu,
+                               .of_rate = h * g,
+                               .of_y = mu,
+                               .of_out = nu,
+                               .of_f = h * m};
+    status = s->stage
+                 ? s->stage(t + h * time1, now, &next, before, sys->params)
+                 : stage_by_parts(t + h * time1, now, &next, before, sys, f);
+    if (status != GSL_SUCCESS)
+      break;
     double *swap = before;
     before = now;
     now = swap;
@@ -258,4 +264,8 @@ const gsl_odeiv2_step_type *const rkc = &type;
 
 struct rkc_report rkc_report(const gsl_odeiv2_step *s) {
   return ((const struct state *)s->state)->report;
+}
+
+void rkc_set_stage(gsl_odeiv2_step *s, stage_function *stage) {
+  ((struct state *)s->state)->stage = stage;
 }

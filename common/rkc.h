@@ -13,6 +13,7 @@
 #define RKC_H
 
 #include <gsl/gsl_odeiv2.h>
+#include "stage.h"
 
 extern const gsl_odeiv2_step_type *const rkc;
 
@@ -24,6 +25,11 @@ struct rkc_report {
   size_t power_evaluations; /* spent on the spectral radius */
 };
 struct rkc_report rkc_report(const gsl_odeiv2_step *s);
+
+/* Lets a step call a system's own stage function instead of its right-hand
+   side followed by a sum over vectors; NULL, the default, does not. The two
+   differ by rounding. */
+void rkc_set_stage(gsl_odeiv2_step *s, stage_function *stage);
 
 /* The method's coefficients for s >= 2 stages and the step's largest stable
    h * spectral radius on the negative real axis. */

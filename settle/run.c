@@ -47,6 +47,11 @@ static int rhs(double t, const double y[], double dydt[], void *params) {
   return dynamics_rhs(t, y, dydt, ((struct limited *)params)->dynamics);
 }
 
+static int stage(double t, const double y[], const struct stage *s,
+                 double out[], void *params) {
+  return dynamics_stage(t, y, s, out, ((struct limited *)params)->dynamics);
+}
+
 static int jacobian(double t, const double y[], double *dfdy, double dfdt[],
                     void *params) {
   return dynamics_jacobian(t, y, dfdy, dfdt,
@@ -214,7 +219,8 @@ int run(const struct settings *s, struct bed *b,
       .scale = scale,
       .row = dynamics_stride(r.dynamics),
       .positions = 3,
-      .step_limit = s->travel > 0 ? step_limit : NULL};
+      .step_limit = s->travel > 0 ? step_limit : NULL,
+      .stage = !strcmp(s->pairs, "all") ? NULL : stage};
   const int status =
       integrate_alloc(&r.integrator, &s->integrate, &problem, b->t, r.y);
   if (status != GSL_SUCCESS)

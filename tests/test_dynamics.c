@@ -346,6 +346,68 @@ static void test_threads(gsl_rng *rng) {
   }
 }
 
+/* A stage is the right-hand side and a sum of five terms, by as many roundings,
+   whoever computes it; a state that is not finite is refused. */
+static void test_stage(gsl_rng *rng) {
+  for (unsigned long c = 0; c < 12; c++) {
+    gsl_rng_set(rng, c);
+    struct recipe p = {
+        models[c % 3], c / 3 % 2 ? 1 : 0.4, 0.2, c / 6, c / 6, 300, 25, 0.2, 1};
+    p.n = c % 2 ? 333 : 1100;
+    struct sample s = random_sample(rng, &p);
+    double *once = NULL;
+    for (int threads = 1; threads <= 3; threads++) {
+      struct dynamics *d =
+          new_dynamics(&s, &(struct dynamics_options){false, threads});
+      const size_t dim = dynamics_dimension(d);
+      double *y = numbers(6 * dim), *f = y + dim, *start = f + dim,
+             *rate = start + dim, *old = rate + dim, *out = old + dim;
+      dynamics_pack(d, &s.bed, y);
+      CHECK(dynamics_rhs(0, y, f, d) == GSL_SUCCESS);
+      gsl_rng_set(rng, c);
+      struct stage g = {start,
+                        rate,
+                        uniform(rng, -1, 1),
+                        uniform(rng, -1, 1),
+                        uniform(rng, -1, 1),
+                        uniform(rng, -1, 1),
+                        uniform(rng, -1, 1)};
+      for (size_t i = 0; i < dim; i++) {
+        start[i] = uniform(rng, -1, 1);
+        rate[i] = uniform(rng, -1, 1);
+        out[i] = old[i] = uniform(rng, -1, 1);
+      }
+      CHECK(dynamics_stage(0, y, &g, out, d) == GSL_SUCCESS);
+      bool near = true;
+      for (size_t i = 0; i < dim; i++) {
+        const double term[5] = {g.of_start * start[i], g.of_rate * rate[i],
+                                g.of_y * y[i], g.of_out * old[i],
+                                g.of_f * f[i]};
+        double sum = 0, size = 0;
+        for (int k = 0; k < 5; k++) {
+          sum += term[k];
+          size += fabs(term[k]);
+        }
+        near = near && fabs(out[i] - sum) <= 10 * DBL_EPSILON * size;
+      }
+      if (!CHECK(near))
+        fprintf(stderr, "  seed %lu, %d threads\n", c, threads);
+      if (once)
+        CHECK(!memcmp(once, out, dim * sizeof *out));
+      else {
+        once = numbers(dim);
+        memcpy(once, out, dim * sizeof *out);
+      }
+      y[dim / 2] = GSL_NAN;
+      CHECK(dynamics_stage(0, y, &g, out, d) == GSL_EBADFUNC);
+      dynamics_free(d);
+      free(y);
+    }
+    free(once);
+    sample_free(&s);
+  }
+}
+
 /* A random walk whose steps are often small against the skin of the list,
    sometimes larger, once in a while undone by a state that is not finite. */
 static void test_history(gsl_rng *rng, enum scene_model model, size_t n,
@@ -1199,6 +1261,7 @@ static void test_kernel(gsl_rng *rng, unsigned long kernel) {
   test_cell_borders(rng);
   test_touching(rng);
   test_threads(rng);
+  test_stage(rng);
   for (int m = 0; m < 3; m++) {
     test_history(rng, models[m], 70, 360, kernel == 0);
     test_history(rng, models[m], 1100, 24, kernel == 0);

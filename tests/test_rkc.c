@@ -833,6 +833,11 @@ static int bench_rhs(double t, const double y[], double dydt[], void *params) {
   return dynamics_rhs(t, y, dydt, ((struct bench *)params)->d);
 }
 
+static int bench_stage(double t, const double y[], const struct stage *g,
+                       double out[], void *params) {
+  return dynamics_stage(t, y, g, out, ((struct bench *)params)->d);
+}
+
 /* 20 spheres let go into a box, at 0.6 s. */
 static size_t settle(const char *method, const char *control, double tol,
                      struct bed *out) {
@@ -845,7 +850,8 @@ static size_t settle(const char *method, const char *control, double tol,
                                       .scale = b.scale,
                                       .row = dynamics_stride(b.d),
                                       .positions = 3,
-                                      .step_limit = travel_limit};
+                                      .step_limit = travel_limit,
+                                      .stage = bench_stage};
   const struct integrate_options o = {
       .method = method, .control = control, .tol = tol, .hinit = 1e-3};
   struct integrator *it = NULL;
