@@ -6,15 +6,15 @@
 #include "files.h"
 #include "options.h"
 
-void frames_open(struct frames *f, int argc, char **argv, int first,
-                 bool allow_partial) {
+void frames_open(struct frames *f, const struct frames_options *o, int argc,
+                 char **argv, int first) {
   if (first + 1 < argc)
     die(EXIT_USAGE, "'%s': expected one file", argv[first + 1]);
   const char *name;
   f->in = input_open(first < argc ? argv[first] : NULL, &name);
   if (f->in == stdin && isatty(STDIN_FILENO))
     die(EXIT_USAGE, "expected a bed on standard input or a file; see --help");
-  f->reader = bed_reader_open(f->in, name, allow_partial);
+  f->reader = bed_reader_open(f->in, name, o->allow_partial);
   if (!f->reader)
     die(EXIT_IO, "out of memory");
 }
@@ -29,6 +29,10 @@ bool frames_next(struct frames *f, struct bed *b) {
   if (status != GSL_SUCCESS && status != GSL_EOF)
     die(EXIT_IO, "%s", gsl_strerror(status));
   return status == GSL_SUCCESS;
+}
+
+const struct bed_header *frames_header(const struct frames *f) {
+  return bed_reader_header(f->reader);
 }
 
 void frames_close(struct frames *f) {
