@@ -11,7 +11,7 @@
 int verb_fraction(int argc, char **argv) {
   struct option_list box = {6, {0, 1, 0, 1, 0, 1}};
   size_t sampled = 0;
-  struct frames_options input = {0};
+  struct frames_options input = {.may_be_empty = true};
   /* clang-format off */
   struct option_spec options[] = {
       {.name = "box", .type = OPTION_LIST, .value = &box, .least = 6,

@@ -14,7 +14,11 @@ void frames_open(struct frames *f, const struct frames_options *o, int argc,
   f->in = input_open(first < argc ? argv[first] : NULL, &name);
   if (f->in == stdin && isatty(STDIN_FILENO))
     die(EXIT_USAGE, "expected a bed on standard input or a file; see --help");
-  f->reader = bed_reader_open(f->in, name, o->allow_partial);
+  const struct bed_reader_options options = {.allow_partial = o->allow_partial,
+                                             .may_be_empty = o->may_be_empty,
+                                             .radius = o->radius,
+                                             .largest = 1e100};
+  f->reader = bed_reader_open_any(f->in, name, &options);
   if (!f->reader)
     die(EXIT_IO, "out of memory");
 }

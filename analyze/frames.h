@@ -10,6 +10,7 @@ struct frames_options {
   bool allow_partial; /* take what is complete of a file without a good end */
   double radius;      /* of spheres that come without one (m); 0: none */
   bool quiet;         /* no progress */
+  bool may_be_empty;  /* a frame of no spheres is no error */
 };
 
 /* Rows of a verb's option table, into a struct frames_options s. */
