@@ -131,7 +131,7 @@ else
   tail -n 3 "$T/log" 2>/dev/null
 fi
 
-cat >"$T/ase.py" <<'END'
+cat >"$T/write.py" <<'END'
 import sys
 from ase import Atoms
 from ase.io import write
@@ -148,7 +148,7 @@ python=python3 # Debian's, where another one comes first
 if "$python" -c 'import ase' 2>"$T/log"; then
   rows 'function frame() {if (t + 0 > 0.3) for (k = 1; k <= n; k++) {
     cut(k); print id, x, y, z, r}}' >"$T/numbers"
-  "$python" "$T/ase.py" "$T/numbers" "$T/extended" "$T/simple"
+  "$python" "$T/write.py" "$T/numbers" "$T/extended" "$T/simple"
   check 'ASE: extended XYZ' near "$T/extended"
   check 'ASE: its time, twice' test "$("$B/analyze" "$T/extended" |
     cut -f 1 | tr '\n' ' ')" = 't 0.40000000000000002 0.40000000000000002 '
