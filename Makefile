@@ -83,6 +83,24 @@ $(B)/tests/%: $(O)/tests/%.o $(LIBRARY)
 check: all $(TEST_PROGRAMS) ## run the tests (minutes)
 	@B=$(B) tests/run.sh $(TEST_PROGRAMS) $(TEST_SCRIPTS)
 
+# What the fuzzer finds is kept in B/fuzz; the small cases of tests/corpus are
+# read again by tests/test_formats.c.
+FUZZ_CC ?= clang
+FUZZ_SECONDS ?= 60
+FUZZ_SOURCES := tests/fuzz_readers.c $(addprefix common/,bed.c bed_io.c \
+	bed_reader.c read_bed.c read_lammps.c read_xyz.c options.c)
+$(B)/fuzz/readers: $(FUZZ_SOURCES) common/bed_io.h common/bed_reader.h
+	@mkdir -p $(@D)
+	$(FUZZ_CC) -std=c11 -O1 -g -fsanitize=fuzzer,address,undefined \
+	  -fno-sanitize-recover=undefined $(WARNINGS) $(INCLUDES) $(GSL_CFLAGS) \
+	  $(FUZZ_SOURCES) $(GSL_LIBS) -o $@
+
+fuzz: $(B)/fuzz/readers ## feed random files to the readers, FUZZ_SECONDS=60 (clang)
+	@mkdir -p $(B)/fuzz/corpus
+	$(B)/fuzz/readers -max_total_time=$(FUZZ_SECONDS) -timeout=10 -verbosity=0 -print_final_stats=1 \
+	  -rss_limit_mb=1024 -max_len=4096 -dict=tests/fuzz_readers.dict \
+	  -artifact_prefix=$(B)/fuzz/ $(B)/fuzz/corpus tests/corpus
+
 DEBIAN_PACKAGES := gcc make libgsl-dev gnuplot-nox fonts-dejavu-core
 deps: ## install the Debian packages (as root, or with sudo)
 	@if command -v gnuplot gsl-config >/dev/null 2>&1 && \
@@ -115,4 +133,4 @@ help: ## this list
 include plots/figures.mk
 include bench/bench.mk
 
-.PHONY: all check deps demo install clean help
+.PHONY: all check fuzz deps demo install clean help

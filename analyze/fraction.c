@@ -11,7 +11,7 @@
 int verb_fraction(int argc, char **argv) {
   struct option_list box = {6, {0, 1, 0, 1, 0, 1}};
   size_t sampled = 0;
-  bool allow_partial = false;
+  struct frames_options input = {.may_be_empty = true};
   /* clang-format off */
   struct option_spec options[] = {
       {.name = "box", .type = OPTION_LIST, .value = &box, .least = 6,
@@ -19,8 +19,7 @@ int verb_fraction(int argc, char **argv) {
       {.name = "sampled", .type = OPTION_SIZE, .value = &sampled,
        .most = 4096, .unit = "0: none",
        .help = "count N^3 midpoints as well"},
-      {.name = "allow-partial", .type = OPTION_FLAG, .value = &allow_partial,
-       .help = "take a file that is cut short or marked as failed"},
+      FRAMES_OPTIONS(input),
       {0}};
   /* clang-format on */
   const struct program program = {
@@ -40,7 +39,7 @@ int verb_fraction(int argc, char **argv) {
 
   struct frames frames;
   struct bed bed = {0};
-  frames_open(&frames, argc, argv, operand, allow_partial);
+  frames_open(&frames, &input, argc, argv, operand);
   for (bool first = true; frames_next(&frames, &bed); first = false) {
     double united, sampled_sum, sampled_union;
     if (volume_union(bed.n, bed.x, bed.r, b, &united) != GSL_SUCCESS)

@@ -6,15 +6,19 @@
 #include "files.h"
 #include "options.h"
 
-void frames_open(struct frames *f, int argc, char **argv, int first,
-                 bool allow_partial) {
+void frames_open(struct frames *f, const struct frames_options *o, int argc,
+                 char **argv, int first) {
   if (first + 1 < argc)
     die(EXIT_USAGE, "'%s': expected one file", argv[first + 1]);
   const char *name;
   f->in = input_open(first < argc ? argv[first] : NULL, &name);
   if (f->in == stdin && isatty(STDIN_FILENO))
     die(EXIT_USAGE, "expected a bed on standard input or a file; see --help");
-  f->reader = bed_reader_open(f->in, name, allow_partial);
+  const struct bed_reader_options options = {.allow_partial = o->allow_partial,
+                                             .may_be_empty = o->may_be_empty,
+                                             .radius = o->radius,
+                                             .largest = 1e100};
+  f->reader = bed_reader_open_any(f->in, name, &options);
   if (!f->reader)
     die(EXIT_IO, "out of memory");
 }
@@ -29,6 +33,10 @@ bool frames_next(struct frames *f, struct bed *b) {
   if (status != GSL_SUCCESS && status != GSL_EOF)
     die(EXIT_IO, "%s", gsl_strerror(status));
   return status == GSL_SUCCESS;
+}
+
+const struct bed_header *frames_header(const struct frames *f) {
+  return bed_reader_header(f->reader);
 }
 
 void frames_close(struct frames *f) {

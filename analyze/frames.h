@@ -2,7 +2,28 @@
 #ifndef FRAMES_H
 #define FRAMES_H
 
+#include <float.h>
 #include "bed_io.h"
+#include "options.h"
+
+struct frames_options {
+  bool allow_partial; /* take what is complete of a file without a good end */
+  double radius;      /* of spheres that come without one (m); 0: none */
+  bool quiet;         /* no progress */
+  bool may_be_empty;  /* a frame of no spheres is no error */
+};
+
+/* Rows of a verb's option table, into a struct frames_options s. */
+/* clang-format off */
+#define FRAMES_OPTIONS(s)                                                      \
+  {.name = "radius", .type = OPTION_DOUBLE, .value = &(s).radius,              \
+   .least = DBL_MIN, .most = OPTION_MANY, .unit = "m",                         \
+   .help = "of spheres that come without one"},                                \
+  {.name = "allow-partial", .type = OPTION_FLAG, .value = &(s).allow_partial,  \
+   .help = "take a file that is cut short or marked as failed"},               \
+  {.name = "quiet", .type = OPTION_FLAG, .value = &(s).quiet,                  \
+   .help = "no progress on a terminal"}
+/* clang-format on */
 
 struct frames {
   FILE *in;
@@ -11,12 +32,16 @@ struct frames {
 
 /* Opens the one operand from argv[first], or standard input. Exits with one
    line on an error. */
-void frames_open(struct frames *f, int argc, char **argv, int first,
-                 bool allow_partial);
+void frames_open(struct frames *f, const struct frames_options *o, int argc,
+                 char **argv, int first);
 
 /* The next frame, which takes the place of b's last one. False at the end;
    exits with one line on bad input. */
 bool frames_next(struct frames *f, struct bed *b);
+
+/* The keys read so far, "t" and "status" among them (bed_header_get); none in
+   a format that has no scene. Valid until the next frame is read. */
+const struct bed_header *frames_header(const struct frames *f);
 
 void frames_close(struct frames *f);
 

@@ -117,7 +117,7 @@ bed "$T/same" '' '4\t0.5\t0.5\t0.5\t0.1\n5\t0.5\t0.5\t0.5\t0.1\n' "$ok"
 bed "$T/outside" "$floor" '7\t0.5\t0.5\t-0.5\t0.1\n' "$ok"
 bed "$T/late" '# t=1\n' '0\t0.5\t0.5\t0.5\t0.1\n' "$ok"
 : >"$T/empty"
-printf 'x\ty\tz\tcolour\n1\t2\t3\t4\n# status=ok\n' >"$T/column"
+printf '# t=0\nx\ty\tz\tcolour\n1\t2\t3\t4\n# status=ok\n' >"$T/column"
 printf '# format=bed-2\nx\ty\tz\n1\t2\t3\n# status=ok\n' >"$T/format"
 mkdir "$T/directory"
 
@@ -132,7 +132,7 @@ for p in settle analyze; do
   bad 'NaN in a file' nan 5 "column y.*'nan'.*expected"
   bad 'text in a file' text 5 "column y.*'x'.*expected"
   bad 'too few fields' short 5 'column z.*expected'
-  bad 'unknown column' column 1 "'colour'.*expected"
+  bad 'unknown column' column 2 "'colour'.*expected"
   bad 'another format' format 1 'bed-2.*expected bed-1'
   bad 'empty file' empty 0 "status=ok"
   bad 'no spheres' norows 5 'no spheres'
