@@ -362,6 +362,9 @@ static int build_list(struct dynamics *d, const double *y) {
   return GSL_SUCCESS;
 }
 
+/* Spheres from which on threads share what is a few operations a sphere. */
+enum { WORTH_SHARING = 4096 };
+
 /* Makes the list hold for y; the result does not depend on when it was built,
    since pairs beyond lmax add zero and the order is always that of ids. */
 static int update_list(struct dynamics *d, const double *y) {
@@ -369,14 +372,19 @@ static int update_list(struct dynamics *d, const double *y) {
     return build_list(d, y);
   const double most = 0.25 * d->skin * d->skin;
   double furthest = 0;
+  bool sound = true; /* a maximum keeps a NaN out */
+#pragma omp parallel for num_threads(d->options.threads) schedule(static)      \
+    reduction(max : furthest) reduction(&& : sound)                            \
+    if (d->n >= WORTH_SHARING)
   for (size_t i = 0; i < d->n; i++) {
     const double *x = y + i * d->k.stride, *x0 = d->reference + 3 * i;
     const double dx = x[0] - x0[0], dy = x[1] - x0[1], dz = x[2] - x0[2];
     const double moved = dx * dx + dy * dy + dz * dz;
-    furthest = furthest > moved ? furthest : moved; /* keeps a NaN out ... */
-    if (moved != moved)
-      return GSL_EBADFUNC; /* ... of the list */
+    furthest = furthest > moved ? furthest : moved;
+    sound = sound && moved == moved;
   }
+  if (!sound)
+    return GSL_EBADFUNC;
   const bool too_wide = skin_overhead(d) * (double)d->age > 8 * build_cost &&
                         d->skin > 0.03 * d->radius[0];
   if (furthest > most || too_wide)

@@ -588,7 +588,7 @@ static void test_cells(void) {
     }
     const double error = fabs(total / ball(r) - 1);
     worst = fmax(worst, error);
-    const double tol = ULPS(4 * m);
+    const double tol = ULPS(8 * m); /* Arm's fused multiply-adds take 44 */
     if (!CHECK(sane) || !CHECK(error <= tol))
       fprintf(stderr, "  seed %lu, kind %lu, %zu planes, error %g > %g\n", seed,
               kind, m, error, tol);
