@@ -84,11 +84,12 @@ int verb_gr(int argc, char **argv) {
           "                evenly over the box: shares of shells that stick\n"
           "                out of it are exact\n"
           "  coordination  mean number of partners up to the bin's end\n"
-          "Add pairs and expected of several beds to average their g. The\n"
-          "box should be where centres may be, so not the walls' but a radius\n"
-          "less, and clear of the free surface.",
+          "Add pairs and expected of several beds to average their g. A box\n"
+          "should hold all centres or lie well inside: one that cuts off the\n"
+          "layer at a wall finds too few spheres at its faces, and a g that\n"
+          "is too large.",
       .usage = "gr [OPTION...] [FILE]",
-      .example = "settle | analyze gr --box 0.1,0.9,0.1,0.9,0.1,0.9",
+      .example = "settle --model basic | analyze gr > gr.tsv",
       .options = options};
   const int operand = options_parse(&program, argc, argv);
   box_check(&set.box);

@@ -125,6 +125,15 @@ want=$(awk '/^[0-9]/ && n++ < 10 {u += 2 * 9.81 * $4}
 # and pairs and the wall beyond it that are not neighbours: none within lmax
 is 'rest: potential' "$(value potential)" "$want" 1e-9
 
+# One sphere at rest on the floor, one in free flight: half a weight of net
+# force on each, one contact of a weight.
+awk 'BEGIN {
+  print "# model=basic\n# wall=0 0 0 0 0 -1\nx\ty\tz\tr"
+  printf "0\t0\t%.17g\t0.1\n1\t1\t1\t0.1\n# status=ok\n",
+    0.1 - log(9.81 / 5.8) / 150}' >"$T/half"
+measure rest "$T/half"
+is 'rest: half is unbalanced' "$(value unbalanced)" 0.5 1e-12
+
 # Lattices: blocks of 6^3 cells, the inside by a box.
 lattice() { # NAME CELL ATOMS: edges of the cell, coordinates in edges
   awk -v cell="$2" -v atoms="$3" 'BEGIN {

@@ -296,6 +296,22 @@ static void test_rattlers(void) {
   scene_free(&s);
 }
 
+/* Contacts that all point one way, whichever, are as far from isotropic as can
+   be: 1; that is no matter of axes. Two ways at right angles: D is diag(1/6,
+   1/6, -1/3), so 1/2. */
+static void test_anisotropy(void) {
+  const double n[3] = {2. / 7, 3. / 7, 6. / 7},
+               m[3] = {6. / 7, 2. / 7, -3. / 7};
+  double one[6], two[6];
+  for (int k = 0; k < 6; k++) {
+    const int i = k < 3 ? k : k == 5, j = k < 3 ? k : k == 3 ? 1 : 2;
+    one[k] = n[i] * n[j];
+    two[k] = 0.5 * (n[i] * n[j] + m[i] * m[j]);
+  }
+  CHECK_CLOSE(network_anisotropy(one), 1, 8 * eps);
+  CHECK_CLOSE(network_anisotropy(two), 0.5, 8 * eps);
+}
+
 /* Integration's params. */
 static int rhs(double t, const double y[], double dydt[], void *d) {
   return dynamics_rhs(t, y, dydt, d);
@@ -417,6 +433,7 @@ int main(void) {
   test_lattice("fcc", 12);
   test_lattice("hcp", 12);
   test_rattlers();
+  test_anisotropy();
   test_settled();
   test_header();
   return check_done();
