@@ -42,20 +42,19 @@ static double total_weight(const struct scene *s, const struct bed *b) {
   return mass * vec3_norm(s->gravity);
 }
 
-static struct measured measure(const struct contacts *set,
+static struct measured measure(const struct frames *f,
+                               const struct contacts *set,
                                const struct scene *scene, const struct bed *b) {
   struct measured m = {.set = set,
                        .bed = b,
                        .scene = scene,
                        .box = set->box.count ? set->box.at : NULL,
                        .weight = total_weight(scene, b)};
-  frame_check(b, network_find(&m.network, scene, b, set->gap));
+  frame_check(f, b, network_find(&m.network, scene, b, set->gap));
   const double force = set->force * m.weight / (double)b->n;
   if (set->force > 0 && !(force > 0))
-    die(EXIT_INPUT,
-        "t=%g: --force is a share of a sphere's weight, expected "
-        "gravity",
-        b->t);
+    frame_refuse(f, b,
+                 "--force is a share of a sphere's weight, expected gravity");
   network_mark(&m.network, set->gap, force);
   m.inside = measure_alloc(b->n, sizeof *m.inside);
   m.rattler = measure_alloc(b->n, sizeof *m.rattler);
@@ -69,7 +68,7 @@ static struct measured measure(const struct contacts *set,
                        : scene_has_friction(scene) ? LEAST_ROUGH
                                                    : LEAST_SMOOTH;
   if (network_rattlers(&m.network, least, m.rattler) == SIZE_MAX)
-    frame_check(b, GSL_ENOMEM);
+    frame_check(f, b, GSL_ENOMEM);
   network_degrees(&m.network, NULL, m.degree, m.with_spheres);
   network_degrees(&m.network, m.rattler, m.rigid, m.rigid_spheres);
   return m;
@@ -327,7 +326,7 @@ int verb_contacts(int argc, char **argv) {
   frames_open(&frames, &input, argc, argv, operand);
   for (bool first = true; frames_next(&frames, &bed); first = false) {
     struct scene scene = frame_scene(&frames, &bed);
-    struct measured m = measure(&set, &scene, &bed);
+    struct measured m = measure(&frames, &set, &scene, &bed);
     print_frame(&m, first);
     measured_free(&m);
     scene_free(&scene);

@@ -16,7 +16,8 @@ struct gr {
   size_t bins;
 };
 
-static void print_frame(const struct gr *set, const struct bed *b) {
+static void print_frame(const struct frames *f, const struct gr *set,
+                        const struct bed *b) {
   double *x = measure_alloc(3 * b->n, sizeof *x), box[6], radius = 0;
   double *pairs = measure_alloc(2 * set->bins, sizeof *pairs);
   double *expected = pairs + set->bins;
@@ -28,14 +29,13 @@ static void print_frame(const struct gr *set, const struct bed *b) {
   else
     frame_box(b, set->margin * 2 * radius, box);
   if (!(box[0] < box[1] && box[2] < box[3] && box[4] < box[5]))
-    die(EXIT_INPUT, "t=%g: the centres span no volume, give a box by --box",
-        b->t);
+    frame_refuse(f, b, "the centres span no volume, expected a box by --box");
   size_t n = 0;
   for (size_t i = 0; i < b->n; i++)
     if (box_holds(box, b->x + 3 * i))
       memcpy(x + 3 * n++, b->x + 3 * i, 3 * sizeof *x);
   const double rmax = set->rmax * 2 * radius;
-  frame_check(b,
+  frame_check(f, b,
               correlation_count(n, x, box, rmax, set->bins, pairs, expected));
   puts("t\tr\tg\tpairs\texpected\tcoordination");
   double around = 0;
@@ -100,7 +100,7 @@ int verb_gr(int argc, char **argv) {
   for (bool first = true; frames_next(&frames, &bed); first = false) {
     if (!first)
       fputs("\n\n", stdout);
-    print_frame(&set, &bed);
+    print_frame(&frames, &set, &bed);
   }
   frames_close(&frames);
   finish_output();

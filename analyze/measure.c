@@ -12,25 +12,29 @@ void box_check(const struct option_list *box) {
       die(EXIT_USAGE, "--box: expected x0 < x1, y0 < y1, z0 < z1");
 }
 
+void frame_refuse(const struct frames *f, const struct bed *b,
+                  const char *why) {
+  fflush(stdout); /* rows of the frames before it */
+  die(EXIT_INPUT, "%s: t=%g: %s", f->name, b->t, why);
+}
+
 struct scene frame_scene(const struct frames *f, const struct bed *b) {
   struct scene s;
   const char *wrong = scene_from_header(&s, frames_header(f));
-  if (wrong) {
-    fflush(stdout);
-    die(EXIT_INPUT, "t=%g: %s", b->t, wrong);
-  }
+  if (wrong)
+    frame_refuse(f, b, wrong);
   return s;
 }
 
-void frame_check(const struct bed *b, int status) {
+void frame_check(const struct frames *f, const struct bed *b, int status) {
   if (status == GSL_SUCCESS)
     return;
-  fflush(stdout);
   if (status == GSL_ENOMEM)
     die(EXIT_IO, "t=%g: out of memory", b->t);
-  die(EXIT_INPUT, "t=%g: %s", b->t,
-      status == GSL_EDOM ? "two spheres have the same centre, expected one each"
-                         : "a number is not finite");
+  frame_refuse(f, b,
+               status == GSL_EDOM
+                   ? "two spheres have the same centre, expected one each"
+                   : "a number is not finite");
 }
 
 void frame_box(const struct bed *b, double margin, double box[6]) {

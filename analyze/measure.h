@@ -22,9 +22,14 @@ void box_check(const struct option_list *box);
    settle's defaults. Exits with EXIT_INPUT on a bad key. */
 struct scene frame_scene(const struct frames *f, const struct bed *b);
 
+/* Exits with EXIT_INPUT and one line: the input, the frame's time and why it
+   cannot be measured. */
+_Noreturn void frame_refuse(const struct frames *f, const struct bed *b,
+                            const char *why);
+
 /* Exits with one line on a GSL status that is not success: no memory, or a
    frame that cannot be measured. */
-void frame_check(const struct bed *b, int status);
+void frame_check(const struct frames *f, const struct bed *b, int status);
 
 /* Box spanned by the centres less margin (m) on every side. */
 void frame_box(const struct bed *b, double margin, double box[6]);

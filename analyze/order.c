@@ -73,14 +73,14 @@ static void print_row(const struct order *set, const struct bed *b,
   putchar('\n');
 }
 
-static void print_frame(const struct order *set, const struct bed *b,
-                        bool first) {
+static void print_frame(const struct frames *f, const struct order *set,
+                        const struct bed *b, bool first) {
   struct bond_order *o = measure_alloc(b->n, sizeof *o);
   double box[6], diameter = 0;
   for (size_t i = 0; i < b->n; i++)
     diameter += 2 * b->r[i];
   diameter /= (double)b->n;
-  frame_check(b, bond_order_find(b->n, b->x, set->cutoff * diameter, o));
+  frame_check(f, b, bond_order_find(b->n, b->x, set->cutoff * diameter, o));
   if (set->box.count)
     memcpy(box, set->box.at, sizeof box);
   else
@@ -141,7 +141,7 @@ int verb_order(int argc, char **argv) {
   struct bed bed = {0};
   frames_open(&frames, &input, argc, argv, operand);
   for (bool first = true; frames_next(&frames, &bed); first = false)
-    print_frame(&set, &bed, first);
+    print_frame(&frames, &set, &bed, first);
   frames_close(&frames);
   finish_output();
   return EXIT_DONE;

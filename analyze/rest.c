@@ -15,9 +15,10 @@
 
 /* Mean net force on a sphere by the mean force of a contact; a contact is what
    touches. */
-static double unbalanced(const struct scene *s, const struct bed *b) {
+static double unbalanced(const struct frames *f, const struct scene *s,
+                         const struct bed *b) {
   struct network w = {0};
-  frame_check(b, network_find(&w, s, b, 0));
+  frame_check(f, b, network_find(&w, s, b, 0));
   network_mark(&w, 0, 0);
   double *force = measure_alloc(3 * b->n, sizeof *force);
   double net = 0, contact = 0;
@@ -39,11 +40,12 @@ struct energies {
   double kinetic, potential, fastest;
 };
 
-static struct energies energies(const struct scene *s, const struct bed *b) {
+static struct energies energies(const struct frames *f, const struct scene *s,
+                                const struct bed *b) {
   struct dynamics *d =
       dynamics_alloc(s, b, &(struct dynamics_options){.threads = 1});
   if (!d)
-    frame_check(b, GSL_ENOMEM);
+    frame_check(f, b, GSL_ENOMEM);
   double *y = measure_alloc(dynamics_dimension(d), sizeof *y);
   dynamics_pack(d, b, y);
   const struct energies e = {dynamics_kinetic(d, y) / (double)b->n,
@@ -97,9 +99,10 @@ int verb_rest(int argc, char **argv) {
   for (bool first = true; frames_next(&frames, &bed); first = false) {
     struct scene scene = frame_scene(&frames, &bed);
     double united;
-    frame_check(&bed, volume_union(bed.n, bed.x, bed.r, box.at, &united));
-    const struct energies e = energies(&scene, &bed);
-    const double net = unbalanced(&scene, &bed);
+    frame_check(&frames, &bed,
+                volume_union(bed.n, bed.x, bed.r, box.at, &united));
+    const struct energies e = energies(&frames, &scene, &bed);
+    const double net = unbalanced(&frames, &scene, &bed);
     if (first)
       watch = rest_watch_begin(bed.t);
     const bool at_rest =

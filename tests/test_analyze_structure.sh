@@ -206,7 +206,7 @@ is 'frictionless: no tangential force' "$(total tangential)" 0
 is 'a pipe of three frames' "$(wc -l <"$T/out")" 4
 
 # What is refused.
-printf 'x\ty\tz\n1\t1\t1\n1\t1\t1\n# status=ok\n' >"$T/same"
+printf 'x,y,z,r\n1,1,1,.1\n1,1,1,.1\n' >"$T/same"
 printf '# kappa=-1\nx\ty\tz\n1\t1\t1\n# status=ok\n' >"$T/kappa"
 printf '# gravity=0\nx\ty\tz\n1\t1\t1\n# status=ok\n' >"$T/weightless"
 refuse 'two tables' 2 'one of --degrees' contacts --network --degrees "$T/sc"
@@ -216,11 +216,11 @@ refuse 'no bins' 2 'bins' gr --bins 0 "$T/sc"
 refuse 'no cutoff' 2 'cutoff' order --cutoff 0 "$T/sc"
 refuse 'a second file' 2 'one file' rest "$T/sc" "$T/sc"
 for verb in contacts rest order; do
-  refuse "$verb: one place twice" 3 't=0.*same centre' $verb "$T/same"
+  refuse "$verb: one place twice" 3 'same: t=0: .*same centre' $verb "$T/same"
 done
 refuse 'no volume' 3 'no volume' gr "$T/same"
-refuse 'a bad key' 3 'kappa=-1.*above 0' contacts "$T/kappa"
-refuse 'a bad key' 3 'kappa=-1.*above 0' rest "$T/kappa"
+refuse 'a bad key' 3 'kappa: t=0: kappa=-1.*above 0' contacts "$T/kappa"
+refuse 'a bad key' 3 'kappa: t=0: kappa=-1.*above 0' rest "$T/kappa"
 refuse 'a share of no weight' 3 'gravity' contacts --force 1 "$T/weightless"
 measure contacts "$T/weightless"
 is 'no weight to carry' "$(value floor)" nan
