@@ -5,7 +5,11 @@
 static const struct {
   const char *name;
   int (*run)(int argc, char **argv);
-} verbs[] = {{"fraction", verb_fraction}};
+} verbs[] = {{"fraction", verb_fraction},
+             {"contacts", verb_contacts},
+             {"rest", verb_rest},
+             {"gr", verb_gr},
+             {"order", verb_order}};
 
 int main(int argc, char **argv) {
   if (argc > 1)

@@ -27,7 +27,7 @@ int verb_fraction(int argc, char **argv) {
       .summary =
           "Volume fraction of spheres in a box, one row a frame: time (s),\n"
           "sum of the clipped spheres and their union, each by the box.\n"
-          "Verbs: fraction.",
+          "Verbs: fraction, contacts, rest, gr, order; analyze VERB --help.",
       .usage = "[fraction] [OPTION...] [FILE]",
       .example = "settle --model basic --seed 3 | analyze",
       .options = options};

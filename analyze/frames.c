@@ -10,15 +10,14 @@ void frames_open(struct frames *f, const struct frames_options *o, int argc,
                  char **argv, int first) {
   if (first + 1 < argc)
     die(EXIT_USAGE, "'%s': expected one file", argv[first + 1]);
-  const char *name;
-  f->in = input_open(first < argc ? argv[first] : NULL, &name);
+  f->in = input_open(first < argc ? argv[first] : NULL, &f->name);
   if (f->in == stdin && isatty(STDIN_FILENO))
     die(EXIT_USAGE, "expected a bed on standard input or a file; see --help");
   const struct bed_reader_options options = {.allow_partial = o->allow_partial,
                                              .may_be_empty = o->may_be_empty,
                                              .radius = o->radius,
                                              .largest = 1e100};
-  f->reader = bed_reader_open_any(f->in, name, &options);
+  f->reader = bed_reader_open_any(f->in, f->name, &options);
   if (!f->reader)
     die(EXIT_IO, "out of memory");
 }

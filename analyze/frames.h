@@ -27,6 +27,7 @@ struct frames_options {
 
 struct frames {
   FILE *in;
+  const char *name; /* of the input, for messages */
   struct bed_reader *reader;
 };
 

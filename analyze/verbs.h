@@ -5,5 +5,9 @@
 #define VERBS_H
 
 int verb_fraction(int argc, char **argv);
+int verb_contacts(int argc, char **argv);
+int verb_rest(int argc, char **argv);
+int verb_gr(int argc, char **argv);
+int verb_order(int argc, char **argv);
 
 #endif

@@ -5,6 +5,7 @@
 #include <float.h>
 #include "integrate.h"
 #include "options.h"
+#include "scene_options.h"
 
 /* clang-format off */
 
@@ -41,6 +42,26 @@
   POSITIVE("f0", &(c).f0, "N", "repulsion at touch F0"),                       \
   POSITIVE("kappa", &(c).kappa, "1/m", "stiffness exponent"),                  \
   POSITIVE("psi", &(c).psi, "s/m", "dissipation focusing")
+
+/* A scene, into a struct scene s and a struct scene_words w; scene_finish
+   completes it. */
+#define SCENE_OPTIONS(s, w)                                                    \
+  {.name = "model", .type = OPTION_TEXT, .value = &(w).model,                  \
+   .choices = scene_models, .help = "variant", .parameter = true},             \
+  LAW_OPTIONS((s).law),                                                        \
+  NUMBER("friction", &(s).law.friction, 0, OPTION_MANY, "",                    \
+         "friction coefficient phi"),                                          \
+  POSITIVE("vmin", &(s).law.vmin, "m/s", "slip speed of full friction"),       \
+  POSITIVE("lmax", &(s).law.lmax, "m",                                         \
+           "gap beyond which contacts are skipped"),                           \
+  {.name = "gravity", .type = OPTION_LIST, .value = &(w).gravity,              \
+   .least = 1, .most = 3, .unit = "m/s^2, downwards, or gx,gy,gz",             \
+   .help = "gravity", .parameter = true},                                      \
+  {.name = "wall", .type = OPTION_LIST, .least = 6, .most = 6,                 \
+   .unit = "px,py,pz,nx,ny,nz with a normal of positive length",               \
+   .help = "plane by a point and outward normal, repeatable; replaces "        \
+           "the box",                                                          \
+   .parameter = true, .each = scene_wall_option, .context = &(s)}
 
 /* clang-format on */
 

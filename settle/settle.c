@@ -9,15 +9,10 @@
 #include "shared_options.h"
 #include "start.h"
 
-static const char *const models[] = {"basic", "friction", "rotation", NULL};
 static const char *const pair_searches[] = {"cells", "all", NULL};
 
 /* An implicit step solves a dense system, at a cost that grows as n^3. */
 enum { MSBDF_SPHERES = 64 };
-
-static int add_wall(const struct option_list *v, void *scene) {
-  return scene_add_wall(scene, v->at, v->at + 3);
-}
 
 /* What single options cannot tell. */
 static void check(const struct settings *s, const struct bed *b) {
@@ -42,16 +37,14 @@ int main(int argc, char **argv) {
                                 .jitter = 0.25,
                                 .seed = 1},
                        .base = {2, {1, 1}},
-                       .gravity = {1, {9.81}},
                        .scene = scene_default(),
+                       .words = scene_words_default(),
                        .integrate = {.method = "rkc", .hinit = 0.1},
                        .travel = 1,
                        .time = 8,
-                       .model = "rotation",
                        .pairs = "cells",
                        .frames = 1,
                        .threads = 1};
-  struct contact_law *law = &s.scene.law;
   /* clang-format off */
   struct option_spec options[] = {
       {.name = "scene", .type = OPTION_TEXT, .value = &s.scene_file,
@@ -69,22 +62,7 @@ int main(int argc, char **argv) {
       {.name = "seed", .type = OPTION_SIZE, .value = &s.fill.seed,
        .most = 4294967295.0, .help = "of the random start",
        .parameter = true},
-      {.name = "model", .type = OPTION_TEXT, .value = &s.model,
-       .choices = models, .help = "variant", .parameter = true},
-      LAW_OPTIONS(*law),
-      NUMBER("friction", &law->friction, 0, OPTION_MANY, "",
-             "friction coefficient phi"),
-      POSITIVE("vmin", &law->vmin, "m/s", "slip speed of full friction"),
-      POSITIVE("lmax", &law->lmax, "m",
-               "gap beyond which contacts are skipped"),
-      {.name = "gravity", .type = OPTION_LIST, .value = &s.gravity,
-       .least = 1, .most = 3, .unit = "m/s^2, downwards, or gx,gy,gz",
-       .help = "gravity", .parameter = true},
-      {.name = "wall", .type = OPTION_LIST, .least = 6, .most = 6,
-       .unit = "px,py,pz,nx,ny,nz with a normal of positive length",
-       .help = "plane by a point and outward normal, repeatable; replaces "
-               "the box",
-       .parameter = true, .each = add_wall, .context = &s.scene},
+      SCENE_OPTIONS(s.scene, s.words),
       NUMBER("time", &s.time, 0, OPTION_MANY, "s", "end of the run"),
       INTEGRATION_OPTIONS(s.integrate, s.travel),
       {.name = "pairs", .type = OPTION_TEXT, .value = &s.pairs,

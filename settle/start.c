@@ -50,20 +50,6 @@ static bool is_step_control(const struct option_spec *o) {
   return false;
 }
 
-static void apply_header(struct option_spec *options,
-                         const struct bed_header *h, const char *name) {
-  const bool other_method = option_find(options, "method")->given;
-  for (size_t k = 0; k < h->count; k++) {
-    struct option_spec *o = option_find(options, h->at[k].name);
-    if (!o || !o->parameter || o->given || (other_method && is_step_control(o)))
-      continue;
-    const char *want = option_set(o, h->at[k].value);
-    if (want)
-      die(EXIT_INPUT, "%s: %s=%s: expected %s", name, o->name, h->at[k].value,
-          want);
-  }
-}
-
 static void check_walls(const struct scene *scene, const struct bed *b,
                         const char *name) {
   for (size_t i = 0; i < b->n; i++)
@@ -120,34 +106,25 @@ static void write_header(const struct settings *s,
   }
 }
 
-static void set_gravity(struct settings *s, bool from_line, const char *name) {
-  const struct option_list *g = &s->gravity;
-  if (g->count == 2 && from_line)
-    die(EXIT_USAGE, "--gravity: expected one number or three");
-  if (g->count == 2)
-    die(EXIT_INPUT, "%s: gravity: expected one number or three", name);
-  for (int k = 0; k < 3; k++)
-    s->scene.gravity[k] = g->count == 3 ? g->at[k] : 0;
-  if (g->count == 1)
-    s->scene.gravity[2] = -g->at[0];
-}
-
 void start_make(struct settings *s, struct option_spec *options, struct bed *b,
                 struct bed_header *header) {
   const char *name = "start";
   const bool own_walls = option_find(options, "wall")->given;
   if (s->scene_file) {
     read_scene(s, b, header, &name);
-    apply_header(options, header, name);
+    const bool other_method = option_find(options, "method")->given;
+    const char *bad =
+        header_options(header, options, other_method ? is_step_control : NULL);
+    if (bad)
+      die(EXIT_INPUT, "%s: %s", name, bad);
   }
-  s->scene.model = !strcmp(s->model, "basic")      ? SCENE_BASIC
-                   : !strcmp(s->model, "friction") ? SCENE_FRICTION
-                                                   : SCENE_ROTATION;
-  set_gravity(s, option_find(options, "gravity")->given, name);
   integrate_defaults(&s->integrate);
-  const char *wrong = scene_check(&s->scene);
+  const char *wrong = scene_finish(&s->scene, &s->words);
+  /* options are checked one by one, but for the numbers of gravity */
+  if (wrong && s->scene_file && !option_find(options, "gravity")->given)
+    die(EXIT_INPUT, "%s: %s", name, wrong);
   if (wrong)
-    die(s->scene_file ? EXIT_INPUT : EXIT_USAGE, "%s", wrong);
+    die(EXIT_USAGE, "--%s", wrong);
   if (!s->scene_file) {
     s->fill.base[0] = s->base.at[0];
     s->fill.base[1] = s->base.at[1];

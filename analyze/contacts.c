@@ -1,0 +1,337 @@
+/* contacts: how spheres touch: coordination, rattlers, overlaps, fabric, what
+   floor and walls carry; or the distributions and the network itself. */
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_math.h>
+#include "box.h"
+#include "measure.h"
+#include "network.h"
+#include "shared_options.h"
+#include "verbs.h"
+
+/* Without friction a sphere is held from all sides by 4 contacts at least;
+   with it 2 can do. */
+enum { LEAST_SMOOTH = 4, LEAST_ROUGH = 2 };
+
+struct contacts {
+  struct option_list box;
+  double gap, force, bin;
+  size_t least;
+  bool degrees, overlaps, network;
+};
+
+/* A frame and what is known of it. */
+struct measured {
+  const struct contacts *set;
+  const struct bed *bed;
+  const struct scene *scene;
+  struct network network;
+  const double *box; /* NULL: everywhere */
+  bool *inside, *rattler;
+  size_t *degree, *with_spheres; /* of all; and without rattlers: */
+  size_t *rigid, *rigid_spheres;
+  double weight; /* of all spheres (N) */
+};
+
+static double total_weight(const struct scene *s, const struct bed *b) {
+  double mass = 0;
+  for (size_t i = 0; i < b->n; i++)
+    mass += b->m[i];
+  return mass * vec3_norm(s->gravity);
+}
+
+static struct measured measure(const struct frames *f,
+                               const struct contacts *set,
+                               const struct scene *scene, const struct bed *b) {
+  struct measured m = {.set = set,
+                       .bed = b,
+                       .scene = scene,
+                       .box = set->box.count ? set->box.at : NULL,
+                       .weight = total_weight(scene, b)};
+  frame_check(f, b, network_find(&m.network, scene, b, set->gap));
+  const double force = set->force * m.weight / (double)b->n;
+  if (set->force > 0 && !(force > 0))
+    frame_refuse(f, b,
+                 "--force is a share of a sphere's weight, expected gravity");
+  network_mark(&m.network, set->gap, force);
+  m.inside = measure_alloc(b->n, sizeof *m.inside);
+  m.rattler = measure_alloc(b->n, sizeof *m.rattler);
+  m.degree = measure_alloc(4 * b->n, sizeof *m.degree);
+  m.with_spheres = m.degree + b->n;
+  m.rigid = m.degree + 2 * b->n;
+  m.rigid_spheres = m.degree + 3 * b->n;
+  for (size_t i = 0; i < b->n; i++)
+    m.inside[i] = !m.box || box_holds(m.box, b->x + 3 * i);
+  const size_t least = set->least                  ? set->least
+                       : scene_has_friction(scene) ? LEAST_ROUGH
+                                                   : LEAST_SMOOTH;
+  if (network_rattlers(&m.network, least, m.rattler) == SIZE_MAX)
+    frame_check(f, b, GSL_ENOMEM);
+  network_degrees(&m.network, NULL, m.degree, m.with_spheres);
+  network_degrees(&m.network, m.rattler, m.rigid, m.rigid_spheres);
+  return m;
+}
+
+static void measured_free(struct measured *m) {
+  network_free(&m->network);
+  free(m->inside);
+  free(m->rattler);
+  free(m->degree);
+}
+
+static bool within(const struct measured *m, const struct network_contact *c) {
+  double x[3];
+  network_point(c, m->bed, x);
+  return !m->box || box_holds(m->box, x);
+}
+
+/* In diameters: the mean of both, or the sphere's own at a wall. */
+static double overlap(const struct measured *m,
+                      const struct network_contact *c) {
+  const double *r = m->bed->r;
+  return -c->gap / (c->wall ? 2 * r[c->i] : r[c->i] + r[c->j]);
+}
+
+struct mean {
+  size_t count;
+  double sum, most;
+};
+
+static void add(struct mean *m, double x) {
+  m->count++;
+  m->sum += x;
+  m->most = GSL_MAX(m->most, x);
+}
+
+static double mean(const struct mean *m) {
+  return m->count ? m->sum / (double)m->count : GSL_NAN;
+}
+
+/* Shares of the weight that walls carry, by their force along gravity: the
+   floor, whose normal is within 45 degrees of gravity, and all others. */
+static void loads(const struct measured *m, double *floor, double *sides) {
+  const struct scene *s = m->scene;
+  const double g = vec3_norm(s->gravity);
+  *floor = *sides = 0;
+  for (size_t k = 0; k < s->walls_count; k++) {
+    double load[3];
+    network_wall_load(&m->network, k, load);
+    const double share = vec3_dot(load, s->gravity) / g / m->weight;
+    if (vec3_dot(s->walls[k].normal, s->gravity) > M_SQRT1_2 * g)
+      *floor += share;
+    else
+      *sides += share;
+  }
+  if (!(m->weight > 0))
+    *floor = *sides = GSL_NAN;
+}
+
+static void print_row(const struct measured *m, bool first) {
+  struct mean z = {0}, z_spheres = {0}, rigid = {0}, rigid_spheres = {0};
+  struct mean overlaps[2] = {{0}, {0}}; /* of pairs, at walls */
+  size_t rattlers = 0, walls = 0;
+  for (size_t i = 0; i < m->bed->n; i++) {
+    if (!m->inside[i])
+      continue;
+    add(&z, (double)m->degree[i]);
+    add(&z_spheres, (double)m->with_spheres[i]);
+    rattlers += m->rattler[i];
+    if (m->rattler[i])
+      continue;
+    add(&rigid, (double)m->rigid[i]);
+    add(&rigid_spheres, (double)m->rigid_spheres[i]);
+  }
+  for (size_t p = 0; p < m->network.count; p++) {
+    const struct network_contact *c = &m->network.at[p];
+    if (!within(m, c))
+      continue;
+    walls += c->counts && c->wall;
+    if (c->gap < 0)
+      add(&overlaps[c->wall], overlap(m, c));
+  }
+  double fabric[6], floor, sides;
+  const size_t pairs = network_fabric(&m->network, m->bed, m->box, fabric);
+  loads(m, &floor, &sides);
+  if (first)
+    puts("t\tspheres\tpairs\twall_contacts\tz\tz_spheres\trattlers\tz_rigid\t"
+         "z_rigid_spheres\toverlap_mean\toverlap_max\twall_overlap_mean\t"
+         "wall_overlap_max\tfloor\tsides\tfabric_xx\tfabric_yy\tfabric_zz\t"
+         "fabric_xy\tfabric_xz\tfabric_yz\tanisotropy");
+  printf("%.17g\t%zu\t%zu\t%zu", m->bed->t, z.count, pairs, walls);
+  put(mean(&z));
+  put(mean(&z_spheres));
+  printf("\t%zu", rattlers);
+  put(mean(&rigid));
+  put(mean(&rigid_spheres));
+  for (int k = 0; k < 2; k++) {
+    put(overlaps[k].count ? mean(&overlaps[k]) : 0);
+    put(overlaps[k].most);
+  }
+  put(floor);
+  put(sides);
+  for (int k = 0; k < 6; k++)
+    put(pairs ? fabric[k] : GSL_NAN);
+  put(pairs ? network_anisotropy(fabric) : GSL_NAN);
+  putchar('\n');
+}
+
+static void print_degrees(const struct measured *m) {
+  size_t most = 0;
+  for (size_t i = 0; i < m->bed->n; i++)
+    most = GSL_MAX(most, m->degree[i]);
+  size_t *count = measure_alloc(3 * (most + 1), sizeof *count);
+  for (size_t i = 0; i < m->bed->n; i++)
+    if (m->inside[i]) {
+      count[3 * m->degree[i]]++;
+      count[3 * m->with_spheres[i] + 1]++;
+      count[3 * m->rigid[i] + 2] += !m->rattler[i];
+    }
+  puts("t\tcontacts\tspheres\tspheres_by_spheres\tspheres_rigid");
+  for (size_t c = 0; c <= most; c++)
+    printf("%.17g\t%zu\t%zu\t%zu\t%zu\n", m->bed->t, c, count[3 * c],
+           count[3 * c + 1], count[3 * c + 2]);
+  free(count);
+}
+
+/* Bin of an overlap, or SIZE_MAX where there is none. */
+static size_t overlap_bin(const struct measured *m,
+                          const struct network_contact *c) {
+  return c->gap < 0 && within(m, c) ? (size_t)(overlap(m, c) / m->set->bin)
+                                    : SIZE_MAX;
+}
+
+static void print_overlaps(const struct measured *m) {
+  const struct network *w = &m->network;
+  size_t bins = 0;
+  for (size_t p = 0; p < w->count; p++) {
+    const size_t bin = overlap_bin(m, &w->at[p]);
+    if (bin != SIZE_MAX)
+      bins = GSL_MAX(bins, bin + 1);
+  }
+  size_t *count = measure_alloc(2 * bins, sizeof *count);
+  for (size_t p = 0; p < w->count; p++) {
+    const size_t bin = overlap_bin(m, &w->at[p]);
+    if (bin != SIZE_MAX)
+      count[2 * bin + w->at[p].wall]++;
+  }
+  puts("t\toverlap\tpairs\twall_contacts");
+  for (size_t k = 0; k < bins; k++)
+    printf("%.17g\t%.17g\t%zu\t%zu\n", m->bed->t,
+           ((double)k + 0.5) * m->set->bin, count[2 * k], count[2 * k + 1]);
+  free(count);
+}
+
+static void print_network(const struct measured *m) {
+  const struct bed *b = m->bed;
+  puts("t\ti\tj\twall\tx\ty\tz\tnormal\ttangential\tgap\tnx\tny\tnz");
+  for (size_t p = 0; p < m->network.count; p++) {
+    const struct network_contact *c = &m->network.at[p];
+    double x[3];
+    if (!c->counts || !within(m, c))
+      continue;
+    network_point(c, b, x);
+    printf("%.17g\t%ld\t%ld\t%zu", b->t, b->id[c->i],
+           b->id[c->wall ? c->i : c->j], c->wall ? c->j + 1 : 0);
+    for (int k = 0; k < 3; k++)
+      put(x[k]);
+    put(c->normal);
+    put(vec3_norm(c->friction));
+    put(c->gap);
+    for (int k = 0; k < 3; k++)
+      put(c->n[k]);
+    putchar('\n');
+  }
+}
+
+static void print_frame(const struct measured *m, bool first) {
+  const struct contacts *set = m->set;
+  const bool table = set->degrees || set->overlaps || set->network;
+  if (table && !first)
+    fputs("\n\n", stdout);
+  if (set->degrees)
+    print_degrees(m);
+  else if (set->overlaps)
+    print_overlaps(m);
+  else if (set->network)
+    print_network(m);
+  else
+    print_row(m, first);
+}
+
+int verb_contacts(int argc, char **argv) {
+  struct contacts set = {.bin = 0.005};
+  struct frames_options input = {0};
+  /* clang-format off */
+  struct option_spec options[] = {
+      NUMBER("gap", &set.gap, -OPTION_MANY, OPTION_MANY, "m",
+             "a contact is what is no further apart"),
+      NUMBER("force", &set.force, 0, OPTION_MANY,
+             "mean weights of a sphere; 0: by --gap",
+             "a contact is what pushes at least so hard"),
+      {.name = "least", .type = OPTION_SIZE, .value = &set.least,
+       .most = 100, .unit = "0: 4, or 2 with friction",
+       .help = "contacts of a sphere that is no rattler"},
+      BOX_OPTION(set.box, "spheres by centre and contacts in a box only"),
+      {.name = "degrees", .type = OPTION_FLAG, .value = &set.degrees,
+       .help = "a block a frame: spheres by their number of contacts"},
+      {.name = "overlaps", .type = OPTION_FLAG, .value = &set.overlaps,
+       .help = "a block a frame: histogram of the overlaps"},
+      NUMBER("bin", &set.bin, 1e-4, 1, "diameters", "width of its bins"),
+      {.name = "network", .type = OPTION_FLAG, .value = &set.network,
+       .help = "a block a frame: the contacts with their forces"},
+      FRAMES_OPTIONS(input),
+      {0}};
+  /* clang-format on */
+  const struct program program = {
+      .name = "analyze",
+      .summary =
+          "How spheres touch, one row a frame. The model's repulsion has no\n"
+          "end, so what a contact is has to be said: a gap of at most --gap,\n"
+          "or a normal force of at least --force.\n"
+          "  t                    time (s)\n"
+          "  spheres              spheres that are looked at\n"
+          "  pairs wall_contacts  contacts of two spheres, of sphere and wall\n"
+          "  z z_spheres          mean contacts of a sphere, with walls and\n"
+          "                       without\n"
+          "  rattlers             spheres with fewer than --least contacts,\n"
+          "                       walls included, and what has fewer once\n"
+          "                       those are taken out, and so on\n"
+          "  z_rigid z_rigid_spheres  z of the others among themselves\n"
+          "  overlap_mean overlap_max wall_overlap_mean wall_overlap_max\n"
+          "                       of all that overlap, in diameters\n"
+          "  floor sides          force along gravity on walls facing it\n"
+          "                       within 45 degrees, and on all others, by\n"
+          "                       the weight of all spheres: 1 in all at rest\n"
+          "  fabric_xx ... fabric_yz  mean of n n over pairs, trace 1\n"
+          "  anisotropy           sqrt(3/2 D:D) of its deviator D: 0 if\n"
+          "                       isotropic, 1 if all point one way\n"
+          "--network: t i j wall x y z normal tangential gap nx ny nz: ids\n"
+          "(wall 0), or i = j and the wall's number; the point between the\n"
+          "surfaces (m), forces (N), gap (m), unit vector to sphere i. All\n"
+          "that the model sees is what --gap 0.1 (its lmax) lists.\n"
+          "Forces come from the parameters and walls in the bed's header,\n"
+          "settle's defaults and no walls where it has none.",
+      .usage = "contacts [OPTION...] [FILE]",
+      .example = "settle --seed 3 | analyze contacts",
+      .options = options};
+  const int operand = options_parse(&program, argc, argv);
+  box_check(&set.box);
+  if (set.degrees + set.overlaps + set.network > 1)
+    die(EXIT_USAGE, "expected one of --degrees, --overlaps and --network");
+
+  struct frames frames;
+  struct bed bed = {0};
+  frames_open(&frames, &input, argc, argv, operand);
+  for (bool first = true; frames_next(&frames, &bed); first = false) {
+    struct scene scene = frame_scene(&frames, &bed);
+    struct measured m = measure(&frames, &set, &scene, &bed);
+    print_frame(&m, first);
+    measured_free(&m);
+    scene_free(&scene);
+  }
+  frames_close(&frames);
+  finish_output();
+  return EXIT_DONE;
+}

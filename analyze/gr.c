@@ -1,0 +1,108 @@
+/* gr: pair correlation g(r) of the centres. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_math.h>
+#include "box.h"
+#include "correlation.h"
+#include "measure.h"
+#include "shared_options.h"
+#include "verbs.h"
+
+struct gr {
+  struct option_list box;
+  double rmax, margin;
+  size_t bins;
+};
+
+static void print_frame(const struct frames *f, const struct gr *set,
+                        const struct bed *b) {
+  double *x = measure_alloc(3 * b->n, sizeof *x), box[6], radius = 0;
+  double *pairs = measure_alloc(2 * set->bins, sizeof *pairs);
+  double *expected = pairs + set->bins;
+  for (size_t i = 0; i < b->n; i++)
+    radius += b->r[i];
+  radius /= (double)b->n;
+  if (set->box.count)
+    memcpy(box, set->box.at, sizeof box);
+  else
+    frame_box(b, set->margin * 2 * radius, box);
+  if (!(box[0] < box[1] && box[2] < box[3] && box[4] < box[5]))
+    frame_refuse(f, b, "the centres span no volume, expected a box by --box");
+  size_t n = 0;
+  for (size_t i = 0; i < b->n; i++)
+    if (box_holds(box, b->x + 3 * i))
+      memcpy(x + 3 * n++, b->x + 3 * i, 3 * sizeof *x);
+  const double rmax = set->rmax * 2 * radius;
+  frame_check(f, b,
+              correlation_count(n, x, box, rmax, set->bins, pairs, expected));
+  puts("t\tr\tg\tpairs\texpected\tcoordination");
+  double around = 0;
+  for (size_t k = 0; k < set->bins; k++) {
+    const double width = rmax / (double)set->bins;
+    const double g = expected[k] > 0 ? pairs[k] / expected[k] : GSL_NAN;
+    const double shell = 4 * M_PI / 3 *
+                         (gsl_pow_3((double)k + 1) - gsl_pow_3((double)k)) *
+                         gsl_pow_3(width);
+    around += g * shell * ((double)n - 1) / box_volume(box);
+    printf("%.17g", b->t);
+    put(((double)k + 0.5) * set->rmax / (double)set->bins);
+    put(g);
+    put(pairs[k]);
+    put(expected[k]);
+    put(around);
+    putchar('\n');
+  }
+  free(pairs);
+  free(x);
+}
+
+int verb_gr(int argc, char **argv) {
+  struct gr set = {.rmax = 3, .bins = 150};
+  struct frames_options input = {0};
+  /* clang-format off */
+  struct option_spec options[] = {
+      BOX_OPTION(set.box, "centres in a box; else in the one they span"),
+      NUMBER("margin", &set.margin, 0, OPTION_MANY, "diameters",
+             "less on every side, without --box"),
+      POSITIVE("rmax", &set.rmax, "diameters", "largest distance"),
+      {.name = "bins", .type = OPTION_SIZE, .value = &set.bins, .least = 1,
+       .most = 1e6, .help = "of equal width from 0 to rmax"},
+      FRAMES_OPTIONS(input),
+      {0}};
+  /* clang-format on */
+  const struct program program = {
+      .name = "analyze",
+      .summary =
+          "Pair correlation of the centres, a block of rows a frame.\n"
+          "  t             time (s)\n"
+          "  r             middle of the bin (mean diameters)\n"
+          "  g             pairs/expected\n"
+          "  pairs         pairs in the bin, both centres in the box\n"
+          "  expected      what it would be were the partners of each strewn\n"
+          "                evenly over the box: shares of shells that stick\n"
+          "                out of it are exact\n"
+          "  coordination  mean number of partners up to the bin's end\n"
+          "Add pairs and expected of several beds to average their g. A box\n"
+          "should hold all centres or lie well inside: one that cuts off the\n"
+          "layer at a wall finds too few spheres at its faces, and a g that\n"
+          "is too large.",
+      .usage = "gr [OPTION...] [FILE]",
+      .example = "settle --model basic | analyze gr > gr.tsv",
+      .options = options};
+  const int operand = options_parse(&program, argc, argv);
+  box_check(&set.box);
+
+  struct frames frames;
+  struct bed bed = {0};
+  frames_open(&frames, &input, argc, argv, operand);
+  for (bool first = true; frames_next(&frames, &bed); first = false) {
+    if (!first)
+      fputs("\n\n", stdout);
+    print_frame(&frames, &set, &bed);
+  }
+  frames_close(&frames);
+  finish_output();
+  return EXIT_DONE;
+}

@@ -1,0 +1,64 @@
+#include "measure.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_math.h>
+#include "scene_options.h"
+
+void box_check(const struct option_list *box) {
+  for (size_t k = 0; k < box->count; k += 2)
+    if (!(box->at[k] < box->at[k + 1]))
+      die(EXIT_USAGE, "--box: expected x0 < x1, y0 < y1, z0 < z1");
+}
+
+void frame_refuse(const struct frames *f, const struct bed *b,
+                  const char *why) {
+  fflush(stdout); /* rows of the frames before it */
+  die(EXIT_INPUT, "%s: t=%g: %s", f->name, b->t, why);
+}
+
+struct scene frame_scene(const struct frames *f, const struct bed *b) {
+  struct scene s;
+  const char *wrong = scene_from_header(&s, frames_header(f));
+  if (wrong)
+    frame_refuse(f, b, wrong);
+  return s;
+}
+
+void frame_check(const struct frames *f, const struct bed *b, int status) {
+  if (status == GSL_SUCCESS)
+    return;
+  if (status == GSL_ENOMEM)
+    die(EXIT_IO, "t=%g: out of memory", b->t);
+  frame_refuse(f, b,
+               status == GSL_EDOM
+                   ? "two spheres have the same centre, expected one each"
+                   : "a number is not finite");
+}
+
+void frame_box(const struct bed *b, double margin, double box[6]) {
+  for (int k = 0; k < 3; k++) {
+    double low = GSL_POSINF, high = GSL_NEGINF;
+    for (size_t i = 0; i < b->n; i++) {
+      low = GSL_MIN(low, b->x[3 * i + k]);
+      high = GSL_MAX(high, b->x[3 * i + k]);
+    }
+    box[2 * k] = low + margin;
+    box[2 * k + 1] = high - margin;
+  }
+}
+
+void put(double x) {
+  if (isnan(x))
+    fputs("\tnan", stdout);
+  else
+    printf("\t%.17g", x);
+}
+
+void *measure_alloc(size_t count, size_t size) {
+  void *p = calloc(count + 1, size);
+  if (!p)
+    die(EXIT_IO, "out of memory");
+  return p;
+}

@@ -1,0 +1,42 @@
+/* What verbs that measure a frame share. */
+#ifndef MEASURE_H
+#define MEASURE_H
+
+#include <stdbool.h>
+#include "frames.h"
+#include "options.h"
+#include "scene.h"
+
+/* Row of an option table: a box, into a struct option_list; without numbers
+   until it is given. */
+/* clang-format off */
+#define BOX_OPTION(b, help_)                                                   \
+  {.name = "box", .type = OPTION_LIST, .value = &(b), .least = 6, .most = 6,   \
+   .unit = "x0,x1,y0,y1,z0,z1 in m", .help = help_}
+/* clang-format on */
+
+/* Exits with EXIT_USAGE if the box was given and is empty. */
+void box_check(const struct option_list *box);
+
+/* The scene of the frame just read, to be freed: its header's keys over
+   settle's defaults. Exits with EXIT_INPUT on a bad key. */
+struct scene frame_scene(const struct frames *f, const struct bed *b);
+
+/* Exits with EXIT_INPUT and one line: the input, the frame's time and why it
+   cannot be measured. */
+_Noreturn void frame_refuse(const struct frames *f, const struct bed *b,
+                            const char *why);
+
+/* Exits with one line on a GSL status that is not success: no memory, or a
+   frame that cannot be measured. */
+void frame_check(const struct frames *f, const struct bed *b, int status);
+
+/* Box spanned by the centres less margin (m) on every side. */
+void frame_box(const struct bed *b, double margin, double box[6]);
+
+/* Prints a tab and a number; nan has no sign. */
+void put(double x);
+
+void *measure_alloc(size_t count, size_t size); /* zeroed; exits without */
+
+#endif

@@ -1,0 +1,129 @@
+/* rest: how near a bed is to rest: energies, unbalanced force, speeds, and
+   settle's criterion. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_math.h>
+#include "box.h"
+#include "dynamics.h"
+#include "measure.h"
+#include "network.h"
+#include "rest.h"
+#include "shared_options.h"
+#include "verbs.h"
+#include "volume.h"
+
+/* Mean net force on a sphere by the mean force of a contact; a contact is what
+   touches. */
+static double unbalanced(const struct frames *f, const struct scene *s,
+                         const struct bed *b) {
+  struct network w = {0};
+  frame_check(f, b, network_find(&w, s, b, 0));
+  network_mark(&w, 0, 0);
+  double *force = measure_alloc(3 * b->n, sizeof *force);
+  double net = 0, contact = 0;
+  size_t count = 0;
+  network_net_force(&w, s, b, force);
+  for (size_t i = 0; i < b->n; i++)
+    net += vec3_norm(force + 3 * i) / (double)b->n;
+  for (size_t p = 0; p < w.count; p++)
+    if (w.at[p].counts) {
+      contact += hypot(w.at[p].normal, vec3_norm(w.at[p].friction));
+      count++;
+    }
+  free(force);
+  network_free(&w);
+  return count ? net / (contact / (double)count) : GSL_NAN;
+}
+
+struct energies {
+  double kinetic, potential, fastest;
+};
+
+static struct energies energies(const struct frames *f, const struct scene *s,
+                                const struct bed *b) {
+  struct dynamics *d =
+      dynamics_alloc(s, b, &(struct dynamics_options){.threads = 1});
+  if (!d)
+    frame_check(f, b, GSL_ENOMEM);
+  double *y = measure_alloc(dynamics_dimension(d), sizeof *y);
+  dynamics_pack(d, b, y);
+  const struct energies e = {dynamics_kinetic(d, y) / (double)b->n,
+                             dynamics_potential(d, y) / (double)b->n,
+                             dynamics_fastest(d, y)};
+  free(y);
+  dynamics_free(d);
+  return e;
+}
+
+int verb_rest(int argc, char **argv) {
+  struct option_list box = {6, {0, 1, 0, 1, 0, 1}};
+  struct frames_options input = {0};
+  /* clang-format off */
+  struct option_spec options[] = {
+      BOX_OPTION(box, "for the fraction"),
+      FRAMES_OPTIONS(input),
+      {0}};
+  /* clang-format on */
+  const struct program program = {
+      .name = "analyze",
+      .summary =
+          "How near a bed is to rest, one row a frame.\n"
+          "  t           time (s)\n"
+          "  kinetic     kinetic energy, spin included, per sphere (J)\n"
+          "  potential   that of gravity, from the origin, and of contacts,\n"
+          "              per sphere (J)\n"
+          "  unbalanced  mean net force on a sphere by the mean force of the\n"
+          "              contacts that touch (gap <= 0); 0 in balance\n"
+          "  fastest     largest speed of a surface, |v| or r |w|, in vmin\n"
+          "  union       solid fraction of the box\n"
+          "  rate        its change since the last frame by the time (1/s)\n"
+          "  at_rest     1: yes, 0: no, nan: too short a time was seen\n"
+          "At rest is what `settle --until-rest` waits for: no surface as\n"
+          "fast as vmin for 0.1 s. vmin is the speed below which the model's\n"
+          "own friction lets a loaded contact creep, so a bed with friction\n"
+          "never stops altogether. settle looks at every step, this at the\n"
+          "frames there are: have them less than 0.1 s apart.",
+      .usage = "rest [OPTION...] [FILE]",
+      .example = "settle --frames 161 | analyze rest",
+      .options = options};
+  const int operand = options_parse(&program, argc, argv);
+  box_check(&box);
+  const double volume = box_volume(box.at);
+
+  struct frames frames;
+  struct bed bed = {0};
+  struct rest_watch watch = {0};
+  double last_t = GSL_NAN, last_union = GSL_NAN;
+  frames_open(&frames, &input, argc, argv, operand);
+  for (bool first = true; frames_next(&frames, &bed); first = false) {
+    struct scene scene = frame_scene(&frames, &bed);
+    double united;
+    frame_check(&frames, &bed,
+                volume_union(bed.n, bed.x, bed.r, box.at, &united));
+    const struct energies e = energies(&frames, &scene, &bed);
+    const double net = unbalanced(&frames, &scene, &bed);
+    if (first)
+      watch = rest_watch_begin(bed.t);
+    const bool at_rest =
+        rest_watch_see(&watch, bed.t, e.fastest, scene.law.vmin);
+    const double passed = bed.t - last_t;
+    if (first)
+      puts("t\tkinetic\tpotential\tunbalanced\tfastest\tunion\trate\tat_rest");
+    printf("%.17g", bed.t);
+    put(e.kinetic);
+    put(e.potential);
+    put(net);
+    put(e.fastest / scene.law.vmin);
+    put(united / volume);
+    put(passed != 0 ? (united / volume - last_union) / passed : GSL_NAN);
+    put(at_rest ? 1 : watch.moved ? 0 : GSL_NAN);
+    putchar('\n');
+    last_t = bed.t;
+    last_union = united / volume;
+    scene_free(&scene);
+  }
+  frames_close(&frames);
+  finish_output();
+  return EXIT_DONE;
+}

@@ -1,0 +1,19 @@
+/* Boxes {x0, x1, y0, y1, z0, z1} along the axes (m). */
+#ifndef BOX_H
+#define BOX_H
+
+#include <stdbool.h>
+
+/* Is x within the box, its faces included? */
+static inline bool box_holds(const double box[6], const double x[3]) {
+  for (int k = 0; k < 3; k++)
+    if (!(x[k] >= box[2 * k] && x[k] <= box[2 * k + 1]))
+      return false;
+  return true;
+}
+
+static inline double box_volume(const double box[6]) {
+  return (box[1] - box[0]) * (box[3] - box[2]) * (box[5] - box[4]);
+}
+
+#endif

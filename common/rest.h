@@ -1,0 +1,31 @@
+/* When a bed is at rest: no surface was faster than vmin, the speed below which
+   the model's own friction lets a loaded contact creep, for 0.1 s. What settle
+   --until-rest waits for and analyze rest tells. Not in the paper. */
+#ifndef REST_H
+#define REST_H
+
+#include <stdbool.h>
+
+static const double rest_time = 0.1; /* s */
+
+struct rest_watch {
+  double since; /* seen slow at all times from then on (s) */
+  bool moved;   /* has been seen to move at all */
+};
+
+static inline struct rest_watch rest_watch_begin(double t) {
+  return (struct rest_watch){.since = t};
+}
+
+/* Takes note of the largest speed of any surface at time t; is the bed at
+   rest? */
+static inline bool rest_watch_see(struct rest_watch *w, double t,
+                                  double fastest, double vmin) {
+  if (!(fastest < vmin)) {
+    w->since = t;
+    w->moved = true;
+  }
+  return t - w->since >= rest_time;
+}
+
+#endif

@@ -1,0 +1,236 @@
+#!/bin/bash
+# analyze contacts, rest, gr and order on beds whose numbers are known.
+B=${B:-build}
+passed=0 failed=0
+T=$(mktemp -d) || exit 1
+trap 'rm -rf "$T"' EXIT
+export LC_ALL=C
+
+check() { # NAME COMMAND...
+  if "${@:2}"; then
+    passed=$((passed + 1))
+  else
+    failed=$((failed + 1))
+    echo "failed: $1" >&2
+  fi
+}
+
+near() { # GOT WANT TOLERANCE; NaN and nothing are never near
+  awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN {
+    d = a - b
+    exit !(a ~ /^[-+.0-9]/ && d <= t && -d <= t)}'
+}
+
+is() { # NAME GOT WANT [TOLERANCE]
+  if [[ $4 ]]; then
+    check "$1: got '$2', want '$3'" near "$2" "$3" "$4"
+  else
+    check "$1: got '$2', want '$3'" test "$2" = "$3"
+  fi
+}
+
+value() { # COLUMN [ROW [FILE]]: of the table in FILE, $T/out
+  awk -F '\t' -v name="$1" -v row="${2:-1}" '
+    NR == 1 {for (k = 1; k <= NF; k++) if ($k == name) c = k; next}
+    NR == row + 1 {print $c}' "${3:-$T/out}"
+}
+
+total() { # COLUMN [CONDITION]: sum over all rows
+  awk -F '\t' -v name="$1" "
+    NR == 1 {for (k = 1; k <= NF; k++) {at[\$k] = k; if (\$k == name) c = k}
+             next}
+    ${2:-1} {s += \$c} END {printf \"%.17g\\n\", s}" "$T/out"
+}
+
+measure() { # ARGUMENT...: into $T/out
+  timeout 60 "$B/analyze" "$@" >"$T/out" 2>"$T/err" </dev/null
+  status=$?
+  [[ $status == 0 && ! -s $T/err ]] || {
+    echo "analyze $*: exit status $status" >&2
+    cat "$T/err" >&2
+  }
+}
+
+refuse() { # NAME STATUS PATTERN ARGUMENT...: one line that says so
+  timeout 60 "$B/analyze" "${@:4}" >"$T/out" 2>"$T/err" </dev/null
+  is "$1: exit status" $? "$2"
+  check "$1: says '$3'" grep -Eq -e "^analyze: .*$3" "$T/err"
+  is "$1: lines" "$(wc -l <"$T/err")" 1
+}
+
+# A column at rest, F(l) (1 + e^2)/2 = k weights at the k-th contact from
+# above: frames at t = 0 and 0.2, and one that moves at 0.4.
+awk 'BEGIN {
+  n = 10; m = 2; r = 0.1; g = 9.81
+  for (f = 0; f < 3; f++) {
+    if (f) print "\n"
+    else print "# format=bed-1\n# restitution=0.4\n# wall=0 0 0 0 0 -1\n" \
+      "# wall=0 0 0 -1 0 0"
+    printf "# t=%g\n", f * 0.2
+    print "id\tx\ty\tz\tr\tm\tvx\tvy\tvz"
+    z = 0
+    for (i = 0; i < n; i++) {
+      z += -log((n - i) * m * g / (10 * 0.58)) / 150 + (i ? 2 : 1) * r
+      printf "%d\t0.5\t0.5\t%.17g\t%g\t%g\t%g\t0\t0\n", i + 7, z, r, m,
+        f == 2 ? 0.02 : 0
+    }
+  }
+  print "# status=ok"}' >"$T/column"
+measure contacts "$T/column"
+is 'column: rows' "$(wc -l <"$T/out")" 4
+is 'column: t of the second row' "$(value t 2)" 0.20000000000000001
+is 'column: floor' "$(value floor)" 1 1e-9
+is 'column: sides' "$(value sides)" 0 0
+is 'column: pairs' "$(value pairs)" 9
+is 'column: wall contacts' "$(value wall_contacts)" 1
+is 'column: z' "$(value z)" 1.9 1e-12
+is 'column: z of spheres' "$(value z_spheres)" 1.8 1e-12
+is 'column: all rattle, friction' "$(value rattlers)" 10
+is 'column: nobody is left' "$(value z_rigid)" nan
+is 'column: anisotropy' "$(value anisotropy)" 1 1e-12
+want=$(awk 'BEGIN {printf "%.17g", log(20 * 9.81 / 5.8) / 150 / 0.2}')
+is 'column: overlap at the floor' "$(value wall_overlap_max)" "$want" 1e-12
+measure contacts --least 1 "$T/column"
+is 'column: --least 1' "$(value rattlers)" 0
+# the uppermost of the contacts carries one weight, the next two
+measure contacts --force 2.5 "$T/column"
+is 'column: --force 2.5 of pairs' "$(value pairs)" 7
+measure contacts --network "$T/column"
+is 'network: normal force of the top' \
+  "$(awk -F '\t' '$2 == 15 && $3 == 16 {print $8; exit}' "$T/out")" 19.62 1e-7
+is 'network: floor' \
+  "$(awk -F '\t' '$4 == 1 {print $2, $3, $13; exit}' "$T/out")" "7 7 1"
+check 'network: blocks for gnuplot' gnuplot -e \
+  "stats '$T/out' skip 1 using 8 nooutput; exit status STATS_blocks != 3"
+measure contacts --degrees "$T/column"
+is 'degrees: spheres of all frames' "$(total spheres)" 30
+is 'degrees: spheres with one contact' "$(value spheres 2)" 1
+is 'degrees: spheres with two contacts' "$(value spheres 3)" 9
+measure contacts --overlaps --bin 0.01 "$T/column"
+is 'overlaps: pairs of all frames' "$(total pairs)" 27
+is 'overlaps: middle of the first bin' "$(value overlap)" 0.005 1e-15
+
+measure rest "$T/column"
+is 'rest: first frame' "$(value at_rest 1)" nan
+is 'rest: second frame' "$(value at_rest 2)" 1
+is 'rest: moving' "$(value at_rest 3)" 0
+is 'rest: unbalanced' "$(value unbalanced)" 0 1e-9
+is 'rest: fastest' "$(value fastest 3)" 2 1e-12
+is 'rest: kinetic' "$(value kinetic 3)" 4e-4 1e-12
+is 'rest: rate' "$(value rate 2)" 0 1e-12
+# contacts store F/kappa: sums of k weights; gravity from the origin
+want=$(awk '/^[0-9]/ && n++ < 10 {u += 2 * 9.81 * $4}
+  END {for (k = 1; k <= 10; k++) u += k * 19.62 / 0.58 / 150
+       printf "%.17g", u / 10}' "$T/column")
+# and pairs and the wall beyond it that are not neighbours: none within lmax
+is 'rest: potential' "$(value potential)" "$want" 1e-9
+
+# One sphere at rest on the floor, one in free flight: half a weight of net
+# force on each, one contact of a weight.
+awk 'BEGIN {
+  print "# model=basic\n# wall=0 0 0 0 0 -1\nx\ty\tz\tr"
+  printf "0\t0\t%.17g\t0.1\n1\t1\t1\t0.1\n# status=ok\n",
+    0.1 - log(9.81 / 5.8) / 150}' >"$T/half"
+measure rest "$T/half"
+is 'rest: half is unbalanced' "$(value unbalanced)" 0.5 1e-12
+
+# Lattices: blocks of 6^3 cells, the inside by a box.
+lattice() { # NAME CELL ATOMS: edges of the cell, coordinates in edges
+  awk -v cell="$2" -v atoms="$3" 'BEGIN {
+    split(cell, a); n = split(atoms, p)
+    print "x\ty\tz\tr"
+    for (c = 0; c < 216; c++)
+      for (k = 1; k < n; k += 3)
+        printf "%.17g\t%.17g\t%.17g\t0.5\n", a[1] * (int(c / 36) + p[k]),
+          a[2] * (int(c / 6) % 6 + p[k + 1]), a[3] * (c % 6 + p[k + 2])
+    print "# status=ok"}' >"$T/$1"
+}
+lattice sc '1 1 1' '0 0 0'
+lattice bcc '1.1547005383792517 1.1547005383792517 1.1547005383792517' \
+  '0 0 0 .5 .5 .5'
+lattice fcc '1.4142135623730951 1.4142135623730951 1.4142135623730951' \
+  '0 0 0 0 .5 .5 .5 0 .5 .5 .5 0'
+lattice hcp '1 1.7320508075688772 1.6329931618554521' \
+  '0 0 0 .5 .5 0 0 .33333333333333333 .5 .5 .83333333333333333 .5'
+while read -r name margin z q4 q6; do
+  measure contacts --gap 1e-9 --box 1.3,3.7,1.3,3.7,1.3,3.7 "$T/$name"
+  is "$name: z" "$(value z)" "$z" 1e-12
+  is "$name: floor without walls" "$(value floor)" 0 0
+  measure order --margin "$margin" "$T/$name"
+  is "$name: q4" "$(value q4)" "$q4" 5e-4
+  is "$name: q6" "$(value q6)" "$q6" 5e-4
+  is "$name: qbar6" "$(value qbar6)" "$q6" 5e-4
+  like=$name
+  [[ $name == sc ]] && like=disordered
+  is "$name: class" "$(value "$like")" 1
+  measure order --spheres --margin "$margin" "$T/$name"
+  is "$name: class of a sphere" "$(value like)" "$like"
+done <<'END'
+sc 1.9 6 0.764 0.354
+bcc 2.3 8 0.036 0.511
+fcc 2.3 12 0.191 0.575
+hcp 2.3 12 0.097 0.485
+END
+# 6^3 points of the simple cubic lattice have 3 36 5 bonds
+measure gr --rmax 1.15 --bins 10 "$T/sc"
+is 'gr: pairs' "$(total pairs)" 540
+is 'gr: in the bin of the bonds' "$(value pairs 9)" 540
+# a box that holds all distances: 216 215/2 pairs, found and expected
+measure gr --rmax 9 --bins 90 "$T/sc"
+is 'gr: all pairs' "$(total pairs)" 23220
+is 'gr: all expected' "$(total expected)" 23220 1e-8
+is 'gr: all partners but for noise' "$(value r 1)" 0.05 1e-12
+
+# A settled bed: walls carry the weight, and the network has it all.
+"$B/settle" --quiet --count 60 --base 0.6,0.6 --time 20 --until-rest \
+  --seed 5 >"$T/bed" || echo "settle failed" >&2
+measure contacts "$T/bed"
+floor=$(value floor)
+# at rest the force that is left is far below 1 % of the weight
+is 'bed: floor and sides' \
+  "$(awk -v a="$floor" -v b="$(value sides)" 'BEGIN {print a + b}')" 1 1e-2
+check 'bed: the sides carry a small part' near "$(value sides)" 0 0.1
+check 'bed: not none' test "$(value sides)" != 0
+measure contacts --network --gap 0.1 "$T/bed"
+# (the floor is the first wall of the header)
+is 'bed: floor by the network' "$(total normal '$4 == 1')" \
+  "$(awk -v f="$floor" 'BEGIN {printf "%.17g", f * 60 * 9.81}')" 1e-8
+measure rest "$T/bed"
+check 'bed: slower than vmin' near "$(value fastest)" 0.5 0.5
+check 'bed: nearly balanced' near "$(value unbalanced)" 0 0.02
+"$B/settle" --quiet --model basic --count 60 --base 0.6,0.6 >"$T/smooth"
+measure contacts --network "$T/smooth"
+is 'frictionless: no tangential force' "$(total tangential)" 0
+"$B/settle" --quiet --count 60 --base 0.6,0.6 --time 0.5 --frames 3 |
+  "$B/analyze" contacts >"$T/out"
+is 'a pipe of three frames' "$(wc -l <"$T/out")" 4
+
+# What is refused.
+printf 'x,y,z,r\n1,1,1,.1\n1,1,1,.1\n' >"$T/same"
+printf '# kappa=-1\nx\ty\tz\n1\t1\t1\n# status=ok\n' >"$T/kappa"
+printf '# gravity=0\nx\ty\tz\n1\t1\t1\n# status=ok\n' >"$T/weightless"
+refuse 'two tables' 2 'one of --degrees' contacts --network --degrees "$T/sc"
+refuse 'an empty box' 2 'x0 < x1' contacts --box 1,0,0,1,0,1 "$T/sc"
+refuse 'an empty box' 2 'x0 < x1' gr --box 1,0,0,1,0,1 "$T/sc"
+refuse 'no bins' 2 'bins' gr --bins 0 "$T/sc"
+refuse 'no cutoff' 2 'cutoff' order --cutoff 0 "$T/sc"
+refuse 'a second file' 2 'one file' rest "$T/sc" "$T/sc"
+for verb in contacts rest order; do
+  refuse "$verb: one place twice" 3 'same: t=0: .*same centre' $verb "$T/same"
+done
+refuse 'no volume' 3 'no volume' gr "$T/same"
+refuse 'a bad key' 3 'kappa: t=0: kappa=-1.*above 0' contacts "$T/kappa"
+refuse 'a bad key' 3 'kappa: t=0: kappa=-1.*above 0' rest "$T/kappa"
+refuse 'a share of no weight' 3 'gravity' contacts --force 1 "$T/weightless"
+measure contacts "$T/weightless"
+is 'no weight to carry' "$(value floor)" nan
+for verb in contacts rest gr order; do
+  "$B/analyze" $verb "$T/sc" >/dev/full 2>"$T/err"
+  is "$verb: a full disk" $? 1
+  "$B/analyze" $verb --help >"$T/out"
+  check "$verb: help" grep -q "^Usage: analyze $verb " "$T/out"
+  check "$verb: help fits" awk 'length > 99 && /^  [a-z]/ {exit 1}' "$T/out"
+done
+
+echo "$passed passed, $failed failed"
+[[ $failed == 0 ]]
