@@ -21,7 +21,7 @@ static const struct format {
   bool many;   /* frames in one file */
   bool series; /* ParaView's .pvd lists such files */
 } formats[] = {{"positions", write_positions, false, false, false},
-               {"csv", write_csv, false, false, false},
+               {"csv", write_csv, false, true, false},
                {"xyz", write_xyz, false, true, false},
                {"lammps", write_lammps, false, true, false},
                {"lammps-data", write_lammps_data, false, false, false},
@@ -133,8 +133,8 @@ static void container(const struct bed_header *header, const struct bed *b,
 
 static void write_one(FILE *out, const struct request *q,
                       const struct frames *frames, const struct bed *b,
-                      size_t number) {
-  struct write_frame f = {.bed = b, .number = number};
+                      size_t number, bool first) {
+  struct write_frame f = {.bed = b, .number = number, .first = first};
   if (q->box_given)
     memcpy(f.box, q->write.box, sizeof f.box);
   else
@@ -218,7 +218,7 @@ static void write_series(const struct request *q, struct frames *frames) {
   for (size_t number = 0; frames_next(frames, &bed); number++) {
     char *name = pattern_name(&pattern, number);
     output_open(&out, name);
-    write_one(out.stream, q, frames, &bed, number);
+    write_one(out.stream, q, frames, &bed, number, true);
     output_commit(&out);
     if (list_name)
       fprintf(list.stream, "<DataSet timestep=\"%.17g\" file=\"%s\"/>\n", bed.t,
@@ -258,10 +258,10 @@ static void write_stream(FILE *out, const struct request *q,
   struct bed bed = {0};
   if (q->format->many && q->all) {
     for (size_t k = 0; frames_next(frames, &bed) && !ferror(out); k++)
-      write_one(out, q, frames, &bed, k);
+      write_one(out, q, frames, &bed, k, k == 0);
   } else {
     const size_t count = read_one(q, frames, &bed);
-    write_one(out, q, frames, &bed, count - 1);
+    write_one(out, q, frames, &bed, count - 1, true);
   }
   bed_free(&bed);
 }
@@ -280,7 +280,7 @@ static void export(const struct request *q, struct frames *frames) {
 }
 
 int verb_export(int argc, char **argv) {
-  struct frames_options input = {0};
+  struct frames_options input = {.may_be_empty = true};
   struct request q = {.write = {.facets = 320, .threads = 1}};
   struct option_list box = {6, {0, 1, 0, 1, 0, 1}}, cells = {1, {100}};
   const char *format = NULL, *which = NULL, *type = "float64";
@@ -292,7 +292,7 @@ int verb_export(int argc, char **argv) {
        .unit = "else standard output",
        .help = "file that appears once it is complete"},
       {.name = "frames", .type = OPTION_TEXT, .value = &which,
-       .choices = frame_choices, .unit = "else all for xyz and lammps",
+       .choices = frame_choices, .unit = "else all for csv, xyz, lammps",
        .help = "frames to write"},
       {.name = "frame", .type = OPTION_SIZE, .value = &q.frame,
        .most = OPTION_MANY, .unit = "from 0", .help = "one frame"},
@@ -325,7 +325,7 @@ int verb_export(int argc, char **argv) {
       .summary =
           "Writes a bed for another program.\n"
           "  positions    x y z of the centres, tab-separated, nothing else\n"
-          "  csv          a row of names, a row a sphere\n"
+          "  csv          a row of names, a row a sphere, the first column t\n"
           "  xyz          extended XYZ: OVITO, ASE\n"
           "  lammps       text dump: OVITO, LAMMPS's read_dump and rerun\n"
           "  lammps-data  data file of atom style sphere\n"
@@ -334,8 +334,10 @@ int verb_export(int argc, char **argv) {
           "  vti          voxels as VTK ImageData: ParaView\n"
           "  raw          voxels as bare numbers, x fastest, then y, z\n"
           "A voxel is the solid fraction of its cell: the exact union of the\n"
-          "spheres. Binary numbers are little-endian. xyz and lammps hold all\n"
-          "frames, the others one, the last; with --frames all they need an\n"
+          "spheres. Binary numbers are little-endian. csv, xyz and lammps "
+          "hold\n"
+          "all frames, the others one, the last; with --frames all they need "
+          "an\n"
           "--output such as bed-%04d.vtp, and vtp and vti get a bed.pvd too.",
       .usage = "export --format NAME [OPTION...] [FILE]",
       .example = "settle | analyze export --format vtp > bed.vtp",

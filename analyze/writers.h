@@ -19,6 +19,7 @@ struct write_options {
 struct write_frame {
   const struct bed *bed;
   size_t number;  /* of the frame in its input, from 0 */
+  bool first;     /* in its file */
   double box[6];  /* the container that formats with one state (m) */
   long id_offset; /* for formats whose numbers begin at 1 */
 };
