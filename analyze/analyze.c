@@ -5,11 +5,14 @@
 static const struct {
   const char *name;
   int (*run)(int argc, char **argv);
-} verbs[] = {{"fraction", verb_fraction},
-             {"contacts", verb_contacts},
-             {"rest", verb_rest},
-             {"gr", verb_gr},
-             {"order", verb_order}};
+} verbs[] = {
+    {"fraction", verb_fraction},
+    {"contacts", verb_contacts},
+    {"rest", verb_rest},
+    {"gr", verb_gr},
+    {"order", verb_order},
+    {"export", verb_export},
+};
 
 int main(int argc, char **argv) {
   if (argc > 1)

@@ -9,5 +9,6 @@ int verb_contacts(int argc, char **argv);
 int verb_rest(int argc, char **argv);
 int verb_gr(int argc, char **argv);
 int verb_order(int argc, char **argv);
+int verb_export(int argc, char **argv);
 
 #endif

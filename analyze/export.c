@@ -1,0 +1,381 @@
+/* export: beds in the formats of other programs. */
+#define _POSIX_C_SOURCE 200809L
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <gsl/gsl_math.h>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+#include "files.h"
+#include "frames.h"
+#include "options.h"
+#include "verbs.h"
+#include "writers.h"
+
+static const struct format {
+  const char *name;
+  write_function *write;
+  bool binary; /* nothing for a terminal */
+  bool many;   /* frames in one file */
+  bool series; /* ParaView's .pvd lists such files */
+} formats[] = {{"positions", write_positions, false, false, false},
+               {"csv", write_csv, false, true, false},
+               {"xyz", write_xyz, false, true, false},
+               {"lammps", write_lammps, false, true, false},
+               {"lammps-data", write_lammps_data, false, false, false},
+               {"vtp", write_vtp, true, false, true},
+               {"stl", write_stl, true, false, false},
+               {"vti", write_vti, true, false, true},
+               {"raw", write_raw, true, false, false}};
+static const char *const format_names[] = {
+    "positions", "csv", "xyz", "lammps", "lammps-data",
+    "vtp",       "stl", "vti", "raw",    NULL};
+static const char *const frame_choices[] = {"last", "all", NULL};
+static const char *const type_names[] = {"float64", "float32", NULL};
+
+/* Which options say something about which formats. */
+static const struct {
+  const char *option, *formats;
+} belongs[] = {{"box", " xyz lammps lammps-data vti raw "},
+               {"cells", " vti raw "},
+               {"binary", " vti raw "},
+               {"distance", " vti raw "},
+               {"type", " vti raw "},
+               {"threads", " vti raw "},
+               {"facets", " stl "},
+               {"equal-volume", " stl "}};
+
+/* The command line. */
+struct request {
+  const struct format *format;
+  const char *output; /* NULL: standard output */
+  struct write_options write;
+  bool box_given, all, chosen;
+  size_t frame; /* the one chosen */
+};
+
+static void check_belonging(struct option_spec *options, const char *format) {
+  char word[32];
+  snprintf(word, sizeof word, " %s ", format);
+  for (size_t i = 0; i < sizeof belongs / sizeof *belongs; i++)
+    if (option_find(options, belongs[i].option)->given &&
+        !strstr(belongs[i].formats, word))
+      die(EXIT_USAGE, "--%s: not for --format %s, only for%s",
+          belongs[i].option, format, belongs[i].formats);
+}
+
+/* Cells from one number or three. */
+static void take_cells(const struct option_list *list, size_t cells[3]) {
+  double bytes = 8;
+  if (list->count == 2)
+    die(EXIT_USAGE, "--cells: expected N or NX,NY,NZ");
+  for (int k = 0; k < 3; k++) {
+    const double x = list->at[list->count == 1 ? 0 : k];
+    bytes *= x;
+    if (!(x >= 1 && x <= OPTION_MANY) || x != floor(x))
+      die(EXIT_USAGE, "--cells: expected whole numbers of at least 1");
+    cells[k] = (size_t)x;
+  }
+  if (bytes > OPTION_MANY)
+    die(EXIT_USAGE, "--cells: %g bytes, expected at most %g", bytes,
+        OPTION_MANY);
+}
+
+static void take_box(const struct option_list *list, double box[6]) {
+  memcpy(box, list->at, 6 * sizeof *box);
+  const double volume =
+      (box[1] - box[0]) * (box[3] - box[2]) * (box[5] - box[4]);
+  if (!(box[1] > box[0] && box[3] > box[2] && box[5] > box[4]) ||
+      !(volume > 0) || !isfinite(volume))
+    die(EXIT_USAGE, "--box: expected x0 < x1, y0 < y1, z0 < z1");
+}
+
+/* The box that holds the spheres and ends at walls along the axes, where a
+   centre is not beyond them. */
+static void container(const struct bed_header *header, const struct bed *b,
+                      double box[6]) {
+  for (int k = 0; k < 3; k++) {
+    box[2 * k] = b->n ? GSL_POSINF : 0;
+    box[2 * k + 1] = b->n ? GSL_NEGINF : 1;
+    for (size_t i = 0; i < b->n; i++) {
+      box[2 * k] = fmin(box[2 * k], b->x[3 * i + k] - b->r[i]);
+      box[2 * k + 1] = fmax(box[2 * k + 1], b->x[3 * i + k] + b->r[i]);
+    }
+  }
+  for (size_t i = 0; i < header->count; i++) {
+    struct option_list wall;
+    struct option_spec spec = {
+        .type = OPTION_LIST, .value = &wall, .least = 6, .most = 6};
+    if (strcmp(header->at[i].name, "wall") ||
+        option_set(&spec, header->at[i].value))
+      continue;
+    const double *normal = wall.at + 3;
+    for (int k = 0; k < 3; k++)
+      if (normal[(k + 1) % 3] == 0 && normal[(k + 2) % 3] == 0) {
+        if (normal[k] < 0)
+          box[2 * k] = wall.at[k];
+        else if (normal[k] > 0)
+          box[2 * k + 1] = wall.at[k];
+      }
+  }
+  /* programs refuse a box without volume and lose atoms that are outside */
+  for (int k = 0; k < 3; k++) {
+    for (size_t i = 0; i < b->n; i++) {
+      box[2 * k] = fmin(box[2 * k], b->x[3 * i + k]);
+      box[2 * k + 1] = fmax(box[2 * k + 1], b->x[3 * i + k]);
+    }
+    if (!(box[2 * k + 1] > box[2 * k]))
+      box[2 * k + 1] = box[2 * k] + 1;
+  }
+}
+
+static void write_one(FILE *out, const struct request *q,
+                      const struct frames *frames, const struct bed *b,
+                      size_t number, bool first) {
+  struct write_frame f = {.bed = b, .number = number, .first = first};
+  if (q->box_given)
+    memcpy(f.box, q->write.box, sizeof f.box);
+  else
+    container(frames_header(frames), b, f.box);
+  long least = 1;
+  for (size_t i = 0; i < b->n; i++)
+    least = GSL_MIN(least, b->id[i]);
+  f.id_offset = 1 - least;
+  q->format->write(out, &f, &q->write);
+}
+
+/* Output names with a number: a %d or %04d, and no other %. */
+struct pattern {
+  const char *text;
+  size_t head, tail; /* what stands before %, where it goes on after d */
+  int width;
+  bool zeros;
+};
+
+static struct pattern pattern_of(const char *text) {
+  struct pattern p = {.text = text};
+  const char *percent = text ? strchr(text, '%') : NULL;
+  if (!percent)
+    die(EXIT_USAGE, "--frames all: a file a frame, expected --output with a "
+                    "%%d or %%04d in its name");
+  const char *at = percent + 1;
+  p.head = (size_t)(percent - text);
+  p.zeros = *at == '0';
+  while (*at >= '0' && *at <= '9' && p.width < 100)
+    p.width = 10 * p.width + (*at++ - '0');
+  if (*at != 'd' || strchr(at, '%') || strchr(at, '/') || p.width > 19)
+    die(EXIT_USAGE, "--output %s: expected one %%d or %%04d in the file's name",
+        text);
+  p.tail = (size_t)(at + 1 - text);
+  return p;
+}
+
+static char *pattern_name(const struct pattern *p, size_t number) {
+  const size_t size = strlen(p->text) + 48;
+  char *name = malloc(size);
+  if (!name)
+    die(EXIT_IO, "out of memory");
+  snprintf(name, size, p->zeros ? "%.*s%0*zu%s" : "%.*s%*zu%s", (int)p->head,
+           p->text, p->width, number, p->text + p->tail);
+  return name;
+}
+
+/* bed-%04d.vtp -> bed.pvd */
+static char *series_name(const struct pattern *p) {
+  const char *slash = strrchr(p->text, '/');
+  const size_t folder = slash ? (size_t)(slash + 1 - p->text) : 0;
+  size_t stem = p->head;
+  while (stem > folder && strchr("-_.", p->text[stem - 1]))
+    stem--;
+  const size_t size = stem + 16;
+  char *name = malloc(size);
+  if (!name)
+    die(EXIT_IO, "out of memory");
+  snprintf(name, size, "%.*s%s.pvd", (int)stem, p->text,
+           stem > folder ? "" : "frames");
+  return name;
+}
+
+static const char *base_name(const char *path) {
+  const char *slash = strrchr(path, '/');
+  return slash ? slash + 1 : path;
+}
+
+static void write_series(const struct request *q, struct frames *frames) {
+  const struct pattern pattern = pattern_of(q->output);
+  struct output_file out, list = {0};
+  struct bed bed = {0};
+  char *list_name = NULL;
+  if (q->format->series) {
+    list_name = series_name(&pattern);
+    output_open(&list, list_name);
+    fprintf(list.stream,
+            "<?xml version=\"1.0\"?>\n"
+            "<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n");
+  }
+  for (size_t number = 0; frames_next(frames, &bed); number++) {
+    char *name = pattern_name(&pattern, number);
+    output_open(&out, name);
+    write_one(out.stream, q, frames, &bed, number, true);
+    output_commit(&out);
+    if (list_name)
+      fprintf(list.stream, "<DataSet timestep=\"%.17g\" file=\"%s\"/>\n", bed.t,
+              base_name(name));
+    free(name);
+  }
+  if (list_name) {
+    fprintf(list.stream, "</Collection>\n</VTKFile>\n");
+    output_commit(&list);
+  }
+  free(list_name);
+}
+
+/* The one frame chosen, or the last; how many were read. */
+static size_t read_one(const struct request *q, struct frames *frames,
+                       struct bed *b) {
+  struct bed next = {0};
+  size_t count = 0;
+  while (frames_next(frames, &next)) {
+    const struct bed swap = *b;
+    *b = next;
+    next = swap;
+    if (++count == q->frame + 1 && q->chosen)
+      break;
+  }
+  bed_free(&next);
+  if (count == 0)
+    die(EXIT_INPUT, "expected at least one frame");
+  if (q->chosen && count <= q->frame)
+    die(EXIT_INPUT, "--frame %zu: there are %zu, numbered from 0", q->frame,
+        count);
+  return count;
+}
+
+static void write_stream(FILE *out, const struct request *q,
+                         struct frames *frames) {
+  struct bed bed = {0};
+  if (q->format->many && q->all) {
+    for (size_t k = 0; frames_next(frames, &bed) && !ferror(out); k++)
+      write_one(out, q, frames, &bed, k, k == 0);
+  } else {
+    const size_t count = read_one(q, frames, &bed);
+    write_one(out, q, frames, &bed, count - 1, true);
+  }
+  bed_free(&bed);
+}
+
+static void export(const struct request *q, struct frames *frames) {
+  if (q->all && !q->format->many) {
+    write_series(q, frames);
+  } else if (q->output) {
+    struct output_file out;
+    output_open(&out, q->output);
+    write_stream(out.stream, q, frames);
+    output_commit(&out);
+  } else {
+    write_stream(stdout, q, frames);
+  }
+}
+
+int verb_export(int argc, char **argv) {
+  struct frames_options input = {.may_be_empty = true};
+  struct request q = {.write = {.facets = 320, .threads = 1}};
+  struct option_list box = {6, {0, 1, 0, 1, 0, 1}}, cells = {1, {100}};
+  const char *format = NULL, *which = NULL, *type = "float64";
+  /* clang-format off */
+  struct option_spec options[] = {
+      {.name = "format", .type = OPTION_TEXT, .value = &format,
+       .choices = format_names, .help = "what to write; needed"},
+      {.name = "output", .type = OPTION_TEXT, .value = &q.output,
+       .unit = "else standard output",
+       .help = "file that appears once it is complete"},
+      {.name = "frames", .type = OPTION_TEXT, .value = &which,
+       .choices = frame_choices, .unit = "else all for csv, xyz, lammps",
+       .help = "frames to write"},
+      {.name = "frame", .type = OPTION_SIZE, .value = &q.frame,
+       .most = OPTION_MANY, .unit = "from 0", .help = "one frame"},
+      {.name = "box", .type = OPTION_LIST, .value = &box, .least = 6,
+       .most = 6, .unit = "m, x0,x1,y0,y1,z0,z1",
+       .help = "of vti and raw; of xyz and lammps, else their walls or spheres"},
+      {.name = "cells", .type = OPTION_LIST, .value = &cells, .least = 1,
+       .most = 3, .unit = "N or NX,NY,NZ", .help = "voxels of vti and raw"},
+      {.name = "binary", .type = OPTION_FLAG, .value = &q.write.binary,
+       .help = "voxels: 1 where the midpoint is solid, else 0; a byte each"},
+      {.name = "distance", .type = OPTION_FLAG, .value = &q.write.distance,
+       .help = "voxels: distance of the midpoint to the surface (m), exact "
+               "outside;\n                     within the solid negative, and "
+               "where spheres overlap too small"},
+      {.name = "type", .type = OPTION_TEXT, .value = &type,
+       .choices = type_names, .help = "of a voxel's number"},
+      {.name = "threads", .type = OPTION_SIZE, .value = &q.write.threads,
+       .most = 1024, .unit = "0: all cores", .help = "threads, for voxels"},
+      {.name = "facets", .type = OPTION_SIZE, .value = &q.write.facets,
+       .least = 20, .most = 2e6, .unit = "the next of 20 k^2",
+       .help = "of a sphere in stl"},
+      {.name = "equal-volume", .type = OPTION_FLAG,
+       .value = &q.write.equal_volume,
+       .help = "stl: the volume of the spheres, corners outside of them"},
+      FRAMES_OPTIONS(input),
+      {0}};
+  /* clang-format on */
+  const struct program program = {
+      .name = "analyze",
+      .summary =
+          "Writes a bed for another program.\n"
+          "  positions    x y z of the centres, tab-separated, nothing else\n"
+          "  csv          a row of names, a row a sphere, the first column t\n"
+          "  xyz          extended XYZ: OVITO, ASE\n"
+          "  lammps       text dump: OVITO, LAMMPS's read_dump and rerun\n"
+          "  lammps-data  data file of atom style sphere\n"
+          "  vtp          VTK PolyData, a vertex a sphere: ParaView\n"
+          "  stl          surfaces of the spheres, binary\n"
+          "  vti          voxels as VTK ImageData: ParaView\n"
+          "  raw          voxels as bare numbers, x fastest, then y, z\n"
+          "A voxel is the solid fraction of its cell: the exact union of the\n"
+          "spheres. Binary numbers are little-endian. csv, xyz and lammps "
+          "hold\n"
+          "all frames, the others one, the last; with --frames all they need "
+          "an\n"
+          "--output such as bed-%04d.vtp, and vtp and vti get a bed.pvd too.",
+      .usage = "export --format NAME [OPTION...] [FILE]",
+      .example = "settle | analyze export --format vtp > bed.vtp",
+      .options = options};
+  const int operand = options_parse(&program, argc, argv);
+  signal(SIGXFSZ, SIG_IGN); /* a file too large is an error of its write */
+  if (!format)
+    die(EXIT_USAGE, "--format: expected what to write; see --help");
+  for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
+    if (!strcmp(formats[i].name, format))
+      q.format = &formats[i];
+  check_belonging(options, format);
+  q.box_given = option_find(options, "box")->given;
+  q.chosen = option_find(options, "frame")->given;
+  if (q.chosen && which)
+    die(EXIT_USAGE, "--frame and --frames: expected one of them");
+  q.all = which ? !strcmp(which, "all") : q.format->many && !q.chosen;
+  if (q.write.binary && q.write.distance)
+    die(EXIT_USAGE, "--binary and --distance: expected one of them");
+  if (q.write.binary && option_find(options, "type")->given)
+    die(EXIT_USAGE, "--binary: is bytes, expected no --type");
+  q.write.single = !strcmp(type, "float32");
+  q.write.quiet = input.quiet;
+  take_box(&box, q.write.box);
+  take_cells(&cells, q.write.cells);
+#ifdef _OPENMP
+  if (q.write.threads == 0)
+    q.write.threads = (size_t)omp_get_num_procs();
+#else
+  q.write.threads = 1;
+#endif
+  if (q.format->binary && !q.output && isatty(STDOUT_FILENO))
+    die(EXIT_USAGE, "--format %s: not for a terminal, expected > FILE", format);
+
+  struct frames frames;
+  frames_open(&frames, &input, argc, argv, operand);
+  export(&q, &frames);
+  frames_close(&frames);
+  finish_output();
+  return EXIT_DONE;
+}

@@ -1,0 +1,52 @@
+/* What export writes: one format a file, write_*.c. Each writes one frame to
+   an open stream and leaves errors in ferror(out). Binary numbers are
+   little-endian, text has 17 digits. */
+#ifndef WRITERS_H
+#define WRITERS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+#include "bed.h"
+
+struct write_options {
+  double box[6];   /* of the voxels (m) */
+  size_t cells[3]; /* voxels along x, y, z */
+  bool binary, distance, single, equal_volume, quiet;
+  size_t facets, threads;
+};
+
+struct write_frame {
+  const struct bed *bed;
+  size_t number;  /* of the frame in its input, from 0 */
+  bool first;     /* in its file */
+  double box[6];  /* the container that formats with one state (m) */
+  long id_offset; /* for formats whose numbers begin at 1 */
+};
+
+typedef void write_function(FILE *out, const struct write_frame *f,
+                            const struct write_options *o);
+
+write_function write_positions, write_csv, write_xyz, write_lammps,
+    write_lammps_data, write_vtp, write_stl, write_vti, write_raw;
+
+/* count numbers of size bytes each, little-endian. */
+void write_little_endian(FILE *out, const void *data, size_t size,
+                         size_t count);
+
+/* One data array of a VTK XML file, kept in its appended part. */
+struct vtk_array {
+  const char *name, *type;        /* Float64, Int64, ... */
+  size_t components, size, count; /* of the bytes of a number; of numbers */
+  const void *data;
+};
+
+/* The start of a VTK XML file: the opening tag of its kind of data set, with
+   attributes, and the time as field data. */
+void write_vtk_start(FILE *out, const char *kind, const char *attributes,
+                     double t);
+
+/* An array's element; its data come at *offset, which moves on. */
+void write_vtk_element(FILE *out, const struct vtk_array *a, uint64_t *offset);
+
+#endif

@@ -1,0 +1,44 @@
+/* A box cut into equal cells, and what spheres make of each: the exact solid
+   fraction, whether its midpoint is solid, or the midpoint's distance to the
+   surface. Row by row, so that a grid needs no memory of its own; not in the
+   paper. Lengths in m, boxes {x0, x1, y0, y1, z0, z1}. Tested in
+   tests/test_voxels.c. */
+#ifndef VOXELS_H
+#define VOXELS_H
+
+#include <stddef.h>
+
+enum voxels_value {
+  /* Share of the cell inside the union of the spheres, in [0, 1]. Where one
+     sphere meets the cell, or spheres do that do not overlap, to the rounding
+     of the cell (ball_cell.h); where overlapping ones do, to that of
+     volume_union. */
+  VOXELS_FRACTION,
+  /* 1 if the midpoint is in a sphere, else 0: what volume_sampled counts. */
+  VOXELS_MIDPOINT,
+  /* Smallest |x - c| - r over the spheres at the midpoint x (m). Outside of
+     them the exact distance to the union's surface. Inside it is negative, and
+     its size a lower bound of that distance, exact for a sphere that no other
+     overlaps: the nearest point of a sphere's surface may lie within another.
+     Infinite without spheres. */
+  VOXELS_DISTANCE
+};
+
+struct voxels;
+
+/* Takes what it needs of n spheres (x: 3n, r: n; radii of 0 and less are left
+   out) and of the grid of cells[k] cells along axis k. Returns GSL_SUCCESS,
+   GSL_EINVAL for a box without volume, no cells, or what is not finite,
+   GSL_ENOMEM. */
+int voxels_open(struct voxels **v, size_t n, const double *x, const double *r,
+                const double box[6], const size_t cells[3]);
+
+/* Rows j0 <= j < j1 of layer k, x fastest: value has cells[0] (j1 - j0) places.
+   The same numbers for any count of threads and any division into calls. One
+   call at a time for a grid. Returns GSL_SUCCESS, GSL_ENOMEM. */
+int voxels_rows(struct voxels *v, enum voxels_value what, size_t k, size_t j0,
+                size_t j1, size_t threads, double *value);
+
+void voxels_close(struct voxels *v);
+
+#endif
