@@ -5,7 +5,7 @@
 static const struct {
   const char *name;
   int (*run)(int argc, char **argv);
-} verbs[] = {{"fraction", verb_fraction}};
+} verbs[] = {{"fraction", verb_fraction}, {"profile", verb_profile}};
 
 int main(int argc, char **argv) {
   if (argc > 1)

@@ -5,5 +5,6 @@
 #define VERBS_H
 
 int verb_fraction(int argc, char **argv);
+int verb_profile(int argc, char **argv);
 
 #endif
