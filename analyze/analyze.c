@@ -5,7 +5,9 @@
 static const struct {
   const char *name;
   int (*run)(int argc, char **argv);
-} verbs[] = {{"fraction", verb_fraction}, {"profile", verb_profile}};
+} verbs[] = {{"fraction", verb_fraction},
+             {"profile", verb_profile},
+             {"radius", verb_radius}};
 
 int main(int argc, char **argv) {
   if (argc > 1)

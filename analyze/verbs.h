@@ -6,5 +6,6 @@
 
 int verb_fraction(int argc, char **argv);
 int verb_profile(int argc, char **argv);
+int verb_radius(int argc, char **argv);
 
 #endif
