@@ -2,17 +2,12 @@
 #include <string.h>
 #include "verbs.h"
 
+#define VERB_ROW(name, what) {#name, verb_##name},
+
 static const struct {
   const char *name;
   int (*run)(int argc, char **argv);
-} verbs[] = {
-    {"fraction", verb_fraction},
-    {"contacts", verb_contacts},
-    {"rest", verb_rest},
-    {"gr", verb_gr},
-    {"order", verb_order},
-    {"export", verb_export},
-};
+} verbs[] = {VERBS(VERB_ROW)};
 
 int main(int argc, char **argv) {
   if (argc > 1)

@@ -1,22 +1,149 @@
-/* fraction: share of a box that the spheres fill, as the sum of the clipped
+/* fraction: share of boxes that the spheres fill, as the sum of the clipped
    spheres (the paper's count) and as their union. Exact; --sampled adds the
    paper's count on midpoints. */
+#define _POSIX_C_SOURCE 200809L
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 #include <gsl/gsl_errno.h>
+#include <gsl/gsl_math.h>
+#include "files.h"
 #include "frames.h"
 #include "options.h"
 #include "verbs.h"
 #include "volume.h"
 
+struct boxes {
+  size_t count, size;
+  double (*at)[6];
+};
+
+static bool box_good(const double b[6]) {
+  const double volume = (b[1] - b[0]) * (b[3] - b[2]) * (b[5] - b[4]);
+  return b[1] > b[0] && b[3] > b[2] && b[5] > b[4] && volume > 0 &&
+         isfinite(volume);
+}
+
+static void boxes_add(struct boxes *boxes, const double box[6]) {
+  if (boxes->count == boxes->size) {
+    boxes->size = 2 * boxes->size + 16;
+    boxes->at = realloc(boxes->at, boxes->size * sizeof *boxes->at);
+    if (!boxes->at)
+      die(EXIT_IO, "out of memory");
+  }
+  memcpy(boxes->at[boxes->count++], box, 6 * sizeof *box);
+}
+
+/* Six numbers a line; # begins a comment. */
+static void read_boxes(struct boxes *boxes, const char *path) {
+  const char *name;
+  FILE *in = input_open(path, &name);
+  char *line = NULL;
+  size_t size = 0, number = 0;
+  while (getline(&line, &size, in) >= 0) {
+    double box[6];
+    int words = 0;
+    bool numbers = true;
+    number++;
+    line[strcspn(line, "#\r\n")] = 0;
+    char *rest = line;
+    for (char *word; (word = strtok_r(rest, " \t", &rest)); words++)
+      numbers = numbers && words < 6 && parse_double(word, &box[words]);
+    if (words == 0)
+      continue;
+    if (!numbers || words != 6)
+      die(EXIT_INPUT, "%s:%zu: expected six numbers x0 x1 y0 y1 z0 z1", name,
+          number);
+    if (!box_good(box))
+      die(EXIT_INPUT, "%s:%zu: expected x0 < x1, y0 < y1, z0 < z1", name,
+          number);
+    boxes_add(boxes, box);
+  }
+  if (ferror(in))
+    die(EXIT_IO, "%s: read error", name);
+  if (!boxes->count)
+    die(EXIT_INPUT, "%s: no boxes, expected lines of x0 x1 y0 y1 z0 z1", name);
+  free(line);
+  if (in != stdin)
+    fclose(in);
+}
+
+enum { MOST_SLABS = 1000000 };
+
+/* Cuts a box into slabs of a height, the last one lower where it must be. */
+static void cut_slabs(struct boxes *boxes, const double box[6], double height) {
+  /* a rounding error of the quotient is no slab */
+  const double slabs = ceil((box[5] - box[4]) / height - 1e-9);
+  if (!(slabs <= MOST_SLABS))
+    die(EXIT_USAGE, "--slab %g: expected at most %d slabs", height, MOST_SLABS);
+  double slab[6];
+  memcpy(slab, box, sizeof slab);
+  for (size_t k = 0; k < (size_t)slabs; k++) {
+    slab[4] = box[4] + (double)k * height;
+    slab[5] =
+        k + 1 < (size_t)slabs ? box[4] + (double)(k + 1) * height : box[5];
+    boxes_add(boxes, slab);
+  }
+}
+
+/* What stands in a row besides the time. */
+struct columns {
+  bool box, empty; /* the box's faces, the void fraction */
+  size_t sampled;
+};
+
+static void print_names(const struct columns *c) {
+  printf("t%s\tsum\tunion%s%s\n", c->box ? "\tx0\tx1\ty0\ty1\tz0\tz1" : "",
+         c->empty ? "\tvoid" : "",
+         c->sampled ? "\tsampled_sum\tsampled_union" : "");
+}
+
+static void print_row(const struct bed *bed, const double box[6],
+                      const struct columns *c) {
+  const double volume =
+      (box[1] - box[0]) * (box[3] - box[2]) * (box[5] - box[4]);
+  double united, sampled_sum, sampled_union;
+  int status = volume_union(bed->n, bed->x, bed->r, box, &united);
+  if (status == GSL_SUCCESS && c->sampled)
+    status = volume_sampled(bed->n, bed->x, bed->r, box, c->sampled,
+                            &sampled_sum, &sampled_union);
+  if (status != GSL_SUCCESS)
+    die(EXIT_IO, "t=%g: %s", bed->t, gsl_strerror(status));
+  printf("%.17g", bed->t);
+  for (int k = 0; k < 6 && c->box; k++)
+    printf("\t%.17g", box[k]);
+  printf("\t%.17g\t%.17g", volume_sum(bed->n, bed->x, bed->r, box) / volume,
+         united / volume);
+  if (c->empty)
+    printf("\t%.17g", 1 - united / volume);
+  if (c->sampled)
+    printf("\t%.17g\t%.17g", sampled_sum / volume, sampled_union / volume);
+  putchar('\n');
+}
+
 int verb_fraction(int argc, char **argv) {
   struct option_list box = {6, {0, 1, 0, 1, 0, 1}};
-  size_t sampled = 0;
+  struct columns columns = {0};
+  const char *boxes_file = NULL;
+  double until = GSL_NAN, slab = 0;
   struct frames_options input = {.may_be_empty = true};
   /* clang-format off */
   struct option_spec options[] = {
       {.name = "box", .type = OPTION_LIST, .value = &box, .least = 6,
        .most = 6, .unit = "m", .help = "x0,x1,y0,y1,z0,z1"},
-      {.name = "sampled", .type = OPTION_SIZE, .value = &sampled,
+      {.name = "boxes", .type = OPTION_TEXT, .value = &boxes_file,
+       .unit = "a row each, with its faces",
+       .help = "file of boxes instead, a line x0 x1 y0 y1 z0 z1 each"},
+      {.name = "until", .type = OPTION_DOUBLE, .value = &until,
+       .least = -1e12, .most = 1e12, .unit = "m",
+       .help = "the box ends at this height instead of z1"},
+      {.name = "slab", .type = OPTION_DOUBLE, .value = &slab, .least = 0,
+       .most = OPTION_MANY, .unit = "m; 0: whole",
+       .help = "cut the box into slabs of this height, a row each"},
+      {.name = "void", .type = OPTION_FLAG, .value = &columns.empty,
+       .help = "add the void fraction, 1 - union"},
+      {.name = "sampled", .type = OPTION_SIZE, .value = &columns.sampled,
        .most = 4096, .unit = "0: none",
        .help = "count N^3 midpoints as well"},
       FRAMES_OPTIONS(input),
@@ -26,37 +153,42 @@ int verb_fraction(int argc, char **argv) {
       .name = "analyze",
       .summary =
           "Volume fraction of spheres in a box, one row a frame: time (s),\n"
-          "sum of the clipped spheres and their union, each by the box.\n"
-          "Verbs: fraction, contacts, rest, gr, order; analyze VERB --help.",
+          "sum of the clipped spheres and their union, each by the box. With\n"
+          "many boxes or slabs, an empty line separates frames.\n" VERBS_HELP,
       .usage = "[fraction] [OPTION...] [FILE]",
       .example = "settle --model basic --seed 3 | analyze",
       .options = options};
   const int operand = options_parse(&program, argc, argv);
-  const double *b = box.at;
-  const double volume = (b[1] - b[0]) * (b[3] - b[2]) * (b[5] - b[4]);
-  if (!(b[1] > b[0] && b[3] > b[2] && b[5] > b[4]) || !(volume > 0))
+  if (boxes_file && (option_find(options, "box")->given ||
+                     option_find(options, "until")->given ||
+                     option_find(options, "slab")->given))
+    die(EXIT_USAGE, "--boxes: expected no --box, --until or --slab beside it");
+  if (option_find(options, "until")->given)
+    box.at[5] = until;
+  if (!box_good(box.at))
     die(EXIT_USAGE, "--box: expected x0 < x1, y0 < y1, z0 < z1");
+  struct boxes boxes = {0};
+  if (boxes_file)
+    read_boxes(&boxes, boxes_file);
+  else if (slab > 0)
+    cut_slabs(&boxes, box.at, slab);
+  else
+    boxes_add(&boxes, box.at);
+  columns.box = boxes_file || slab > 0;
 
   struct frames frames;
   struct bed bed = {0};
   frames_open(&frames, &input, argc, argv, operand);
   for (bool first = true; frames_next(&frames, &bed); first = false) {
-    double united, sampled_sum, sampled_union;
-    if (volume_union(bed.n, bed.x, bed.r, b, &united) != GSL_SUCCESS)
-      die(EXIT_IO, "t=%g: out of memory", bed.t);
-    if (sampled && volume_sampled(bed.n, bed.x, bed.r, b, sampled, &sampled_sum,
-                                  &sampled_union) != GSL_SUCCESS)
-      die(EXIT_IO, "t=%g: out of memory", bed.t);
     if (first)
-      printf("t\tsum\tunion%s\n",
-             sampled ? "\tsampled_sum\tsampled_union" : "");
-    printf("%.17g\t%.17g\t%.17g", bed.t,
-           volume_sum(bed.n, bed.x, bed.r, b) / volume, united / volume);
-    if (sampled)
-      printf("\t%.17g\t%.17g", sampled_sum / volume, sampled_union / volume);
-    putchar('\n');
+      print_names(&columns);
+    else if (columns.box)
+      putchar('\n');
+    for (size_t k = 0; k < boxes.count; k++)
+      print_row(&bed, boxes.at[k], &columns);
   }
   frames_close(&frames);
+  free(boxes.at);
   finish_output();
   return EXIT_DONE;
 }

@@ -1,14 +1,25 @@
-/* The verbs of analyze: each a filter in a file of its own. argv[0] is
-   "analyze", the rest the verb's options and operand; returns the program's
-   exit status. */
+/* The verbs of analyze: each a filter in a file of its own, VERB.c, with a
+   function verb_VERB. argv[0] is the verb, the rest its options and operand;
+   returns the program's exit status. */
 #ifndef VERBS_H
 #define VERBS_H
 
-int verb_fraction(int argc, char **argv);
-int verb_contacts(int argc, char **argv);
-int verb_rest(int argc, char **argv);
-int verb_gr(int argc, char **argv);
-int verb_order(int argc, char **argv);
-int verb_export(int argc, char **argv);
+/* clang-format off */
+#define VERBS(VERB)                                                            \
+  VERB(fraction, "share of boxes that the spheres fill, the default")          \
+  VERB(profile, "solid fraction along an axis, from a wall or of shells")      \
+  VERB(contacts, "coordination, overlaps, forces, weight on walls, fabric")    \
+  VERB(rest, "energies, unbalanced force, largest speed")                      \
+  VERB(gr, "pair correlation")                                                 \
+  VERB(order, "bond order q4 and q6: fcc, hcp or none")                        \
+  VERB(radius, "the geometry's radius, and the bed with another one")          \
+  VERB(export, "the bed for other programs, or as voxels")
+/* clang-format on */
+
+#define VERB_FUNCTION(name, what) int verb_##name(int argc, char **argv);
+VERBS(VERB_FUNCTION)
+
+#define VERB_LINE(name, what) "\n  " #name ": " what
+#define VERBS_HELP "Verbs, each with a --help of its own:" VERBS(VERB_LINE)
 
 #endif

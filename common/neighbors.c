@@ -217,6 +217,26 @@ int neighbors_find(struct neighbors *nb, size_t n, const double *x,
   return GSL_SUCCESS;
 }
 
+size_t neighbors_partners(const struct neighbors *nb, size_t n, size_t *start,
+                          uint32_t *partner) {
+  size_t most = 0;
+  for (size_t i = 0; i < n + 2; i++)
+    start[i] = 0;
+  for (size_t p = 0; p < nb->count; p++) {
+    start[nb->i[p] + 2]++;
+    start[nb->j[p] + 2]++;
+  }
+  for (size_t i = 2; i < n + 2; i++) {
+    most = start[i] > most ? start[i] : most;
+    start[i] += start[i - 1];
+  }
+  for (size_t p = 0; p < nb->count; p++) {
+    partner[start[nb->i[p] + 1]++] = nb->j[p];
+    partner[start[nb->j[p] + 1]++] = nb->i[p];
+  }
+  return most;
+}
+
 void neighbors_free(struct neighbors *nb) {
   free(nb->i);
   free(nb->j);

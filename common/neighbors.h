@@ -25,6 +25,12 @@ struct neighbors {
 int neighbors_find(struct neighbors *nb, size_t n, const double *x,
                    size_t stride, const double *radius, double reach);
 
+/* The pair list of n spheres turned into each one's partners: sphere i's are
+   partner[start[i]] ... partner[start[i+1] - 1], ascending. start: n + 2,
+   partner: twice as many as pairs. Returns the most partners of a sphere. */
+size_t neighbors_partners(const struct neighbors *nb, size_t n, size_t *start,
+                          uint32_t *partner);
+
 void neighbors_free(struct neighbors *nb);
 
 #endif

@@ -54,22 +54,9 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include "halfspace.h"
 #include "neighbors.h"
 #include "vec3.h"
-
-/* Sines below this are rounding errors of equal normals: unequal ones differ
-   by an ulp of a component, and their difference is exact. */
-static const double parallel = 1e-28;
-
-/* What stands for an offset of 0, in units of the ball's radius or the plane's
-   offset. On a boundary shadows depend on the way there. Being outside of each
-   boundary by an immeasurable distance is one way, and the one that gives
-   empty intersections through O no faces at all. */
-static const double touching = -1e-30;
-
-static double off_zero(double offset, double scale) {
-  return offset == 0 ? touching * scale : offset;
-}
 
 /* U of the above; h, e > 0, s of either sign. */
 static double beyond(double r, double h, double e, double s) {
@@ -83,33 +70,6 @@ static double cap(double r, double h) {
   return M_PI / 3 * (r - h) * (r - h) * (2 * r + h);
 }
 
-/* Half-space b, {x: nb.x <= hb}, within the boundary of half-space a, in dim
-   dimensions. With c = na.nb, returns hb - ha c, which is b's offset from the
-   foot of the origin on the boundary times the sine of the angle; the normal
-   there, times the sine, is the component of d = nb - sign na along the
-   boundary, sign = +-1 that of c. */
-static inline double restricted(int dim, const double *na, double ha,
-                                const double *nb, double hb, double *d,
-                                double *sign) {
-  double c = 0, d2 = 0;
-  for (int k = 0; k < dim; k++)
-    c += na[k] * nb[k];
-  *sign = c < 0 ? -1 : 1;
-  for (int k = 0; k < dim; k++) {
-    d[k] = nb[k] - *sign * na[k];
-    d2 += d[k] * d[k];
-  }
-  return (hb - *sign * ha) + *sign * ha * d2 / 2;
-}
-
-/* Does half-space b leave nothing of a's boundary when the two are parallel?
-   Of equals the first stays. */
-static bool hidden(double ha, double hb, double sign, bool b_first) {
-  if (sign > 0)
-    return hb < ha || (hb == ha && b_first);
-  return ha + hb < 0;
-}
-
 /* The plane of half-space i, and u, v, which span it. */
 struct face {
   size_t i;
@@ -119,7 +79,8 @@ struct face {
 
 static struct face face_of(double r, const double (*planes)[4], size_t i) {
   const double *n = planes[i];
-  struct face f = {.i = i, .normal = n, .r = r, .h = off_zero(n[3], r)};
+  struct face f = {
+      .i = i, .normal = n, .r = r, .h = halfspace_off_zero(n[3], r)};
   f.rho2 = (r - f.h) * (r + f.h);
   /* Duff et al., J. Computer Graphics Techniques 6 (2017) 1 */
   const double sign = copysign(1, n[2]), a = -1 / (sign + n[2]);
@@ -139,21 +100,22 @@ enum leaves { ALL, SOME, NONE };
    leaves SOME of the disc. */
 static enum leaves trace(const struct face *f, const double (*planes)[4],
                          size_t j, double line[3]) {
-  const double h = off_zero(planes[j][3], f->r);
+  const double h = halfspace_off_zero(planes[j][3], f->r);
   if (h >= f->r)
     return ALL;
   double d[3], sign;
-  const double w = restricted(3, f->normal, f->h, planes[j], h, d, &sign);
+  const double w =
+      halfspace_restricted(3, f->normal, f->h, planes[j], h, d, &sign);
   const double pu = vec3_dot(d, f->u), pv = vec3_dot(d, f->v);
   const double sine2 = pu * pu + pv * pv;
-  if (sine2 < parallel * parallel)
-    return hidden(f->h, h, sign, j < f->i) ? NONE : ALL;
+  if (sine2 < HALFSPACE_PARALLEL * HALFSPACE_PARALLEL)
+    return halfspace_hidden(f->h, h, sign, j < f->i) ? NONE : ALL;
   if (w * w >= f->rho2 * sine2)
     return w < 0 ? NONE : ALL;
   const double sine = sqrt(sine2);
   line[0] = pu / sine;
   line[1] = pv / sine;
-  line[2] = off_zero(w / sine, fabs(f->h));
+  line[2] = halfspace_off_zero(w / sine, fabs(f->h));
   return SOME;
 }
 
@@ -167,10 +129,11 @@ static double edge_shadow(const struct face *f, size_t count,
     double other[3], d[2], sign;
     if (k == f->i || k == j || trace(f, planes, k, other) != SOME)
       continue;
-    const double w = restricted(2, line, e, other, other[2], d, &sign);
+    const double w =
+        halfspace_restricted(2, line, e, other, other[2], d, &sign);
     const double sine = line[0] * d[1] - line[1] * d[0];
-    if (fabs(sine) < parallel) {
-      if (hidden(e, other[2], sign, k < j))
+    if (fabs(sine) < HALFSPACE_PARALLEL) {
+      if (halfspace_hidden(e, other[2], sign, k < j))
         return 0;
     } else if (sine > 0)
       s1 = fmin(s1, w / sine);
@@ -324,26 +287,6 @@ static double sum_cells(size_t n, const double *x, const double *r,
   return sum.total + sum.lost;
 }
 
-/* Turns the pair list into each sphere's partners; start: n + 2 zeros, of which
-   the first n + 1 are set. Returns the most partners of a sphere. */
-static size_t list_partners(const struct neighbors *nb, size_t n, size_t *start,
-                            uint32_t *partner) {
-  size_t most = 0;
-  for (size_t p = 0; p < nb->count; p++) {
-    start[nb->i[p] + 2]++;
-    start[nb->j[p] + 2]++;
-  }
-  for (size_t i = 2; i < n + 2; i++) {
-    most = start[i] > most ? start[i] : most;
-    start[i] += start[i - 1];
-  }
-  for (size_t p = 0; p < nb->count; p++) {
-    partner[start[nb->i[p] + 1]++] = nb->j[p];
-    partner[start[nb->j[p] + 1]++] = nb->i[p];
-  }
-  return most;
-}
-
 int volume_union(size_t n, const double *x, const double *r,
                  const double box[6], double *volume) {
   for (int k = 0; k < 6; k++)
@@ -382,7 +325,8 @@ int volume_union(size_t n, const double *x, const double *r,
   partner = calloc(nb.count + 1, 2 * sizeof *partner);
   if (!partner)
     goto done;
-  planes = calloc(list_partners(&nb, near, start, partner) + 6, sizeof *planes);
+  planes =
+      calloc(neighbors_partners(&nb, near, start, partner) + 6, sizeof *planes);
   if (!planes)
     goto done;
   *volume = sum_cells(near, nx, nr, box, start, partner, planes);

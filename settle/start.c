@@ -7,6 +7,7 @@
 #include <gsl/gsl_errno.h>
 #include "files.h"
 #include "neighbors.h"
+#include "radius.h"
 #include "version.h"
 
 /* Settled spheres overlap, the more so the softer they are (kappa = 30: by
@@ -39,6 +40,15 @@ static void read_scene(const struct settings *s, struct bed *b,
   bed_reader_close(reader);
   if (in != stdin)
     fclose(in);
+  const double r = radius_dynamics(h);
+  if (r < 0)
+    die(EXIT_INPUT, "%s: radius_dynamics=%s: expected a number above 0", *name,
+        bed_header_get(h, "radius_dynamics"));
+  if (r > 0) { /* forces at another radius are another bed's */
+    warn("%s: the radius was rewritten; going on with radius_dynamics=%g",
+         *name, r);
+    check_memory(radius_rewrite(b, h, r, NULL));
+  }
 }
 
 /* Belongs to a method: another one does not inherit it. */

@@ -1,0 +1,262 @@
+/* radius: rewrites a bed with another radius of the geometry, or reports what
+   each choice makes of the fractions and overlaps. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_math.h>
+#include "frames.h"
+#include "options.h"
+#include "radius.h"
+#include "verbs.h"
+#include "volume.h"
+
+static const char *const measures[] = {"union", "sum", NULL};
+
+enum choice { NOMINAL, CONTACT_MEAN, TOUCHING, FRACTION, CHOICES };
+
+struct settings {
+  enum choice keep;
+  const char *keep_text;
+  double fraction, box[6];
+  bool sum;
+};
+
+/* What is measured of a frame at one radius. */
+struct measured {
+  double r, sum, united;
+  struct radius_overlaps overlaps;
+};
+
+static void set_keep(struct settings *s) {
+  const char *const names[] = {"nominal", "contact-mean", "touching"};
+  const char *text = s->keep_text;
+  for (s->keep = NOMINAL; s->keep < FRACTION; s->keep++)
+    if (!strcmp(text, names[s->keep]))
+      return;
+  if (strncmp(text, "fraction=", 9) || !parse_double(text + 9, &s->fraction) ||
+      !(s->fraction > 0) || (!s->sum && s->fraction >= 1))
+    die(EXIT_USAGE,
+        "--keep %s: expected nominal, contact-mean, touching or fraction=F "
+        "with F above 0%s",
+        text, s->sum ? "" : " and below 1");
+}
+
+static int add_wall(const struct option_list *v, void *scene) {
+  return scene_add_wall(scene, v->at, v->at + 3);
+}
+
+static struct scene read_walls(const struct bed_header *h) {
+  struct scene s = {0};
+  struct option_spec wall = {.name = "wall",
+                             .type = OPTION_LIST,
+                             .least = 6,
+                             .most = 6,
+                             .unit = "a point and a normal",
+                             .each = add_wall,
+                             .context = &s};
+  for (size_t k = 0; k < h->count; k++) {
+    const char *want = strcmp(h->at[k].name, "wall")
+                           ? NULL
+                           : option_set(&wall, h->at[k].value);
+    if (want)
+      die(EXIT_INPUT, "wall=%s: expected %s", h->at[k].value, want);
+  }
+  return s;
+}
+
+/* The radius of a choice; NaN if there is none. */
+static double choose(const struct settings *s, enum choice choice,
+                     const struct scene *walls, const struct bed *b,
+                     double nominal) {
+  double r = GSL_NAN;
+  int status = GSL_SUCCESS;
+  if (choice == NOMINAL)
+    r = nominal;
+  else if (choice == TOUCHING)
+    status = radius_touching(walls, b->n, b->x, &r);
+  else if (choice == CONTACT_MEAN)
+    status = radius_contact_mean(walls, b->n, b->x, nominal, &r);
+  else
+    status = radius_of_fraction(b->n, b->x, s->box, s->fraction, s->sum, &r);
+  if (status != GSL_SUCCESS && status != GSL_EDOM)
+    die(EXIT_IO, "t=%g: %s", b->t, gsl_strerror(status));
+  return r;
+}
+
+static struct measured measure(const struct settings *s,
+                               const struct scene *walls, const struct bed *b,
+                               double r) {
+  struct measured m = {.r = r};
+  const double *box = s->box;
+  const double volume =
+      (box[1] - box[0]) * (box[3] - box[2]) * (box[5] - box[4]);
+  double *radii = calloc(b->n + 1, sizeof *radii);
+  if (!radii)
+    die(EXIT_IO, "out of memory");
+  for (size_t i = 0; i < b->n; i++)
+    radii[i] = r;
+  int status = volume_union(b->n, b->x, radii, box, &m.united);
+  if (status == GSL_SUCCESS)
+    status = radius_overlaps(walls, b->n, b->x, r, &m.overlaps);
+  if (status != GSL_SUCCESS)
+    die(EXIT_IO, "t=%g: %s", b->t, gsl_strerror(status));
+  m.sum = volume_sum(b->n, b->x, radii, box) / volume;
+  m.united /= volume;
+  free(radii);
+  return m;
+}
+
+static void print_report(const struct settings *s, const struct scene *walls,
+                         const struct bed *b, double nominal) {
+  char last[40];
+  snprintf(last, sizeof last, "fraction=%g", s->fraction);
+  const char *const names[CHOICES] = {"nominal", "contact-mean", "touching",
+                                      last};
+  for (enum choice c = 0; c < CHOICES; c++) {
+    const double r = choose(s, c, walls, b, nominal);
+    printf("%.17g\t%s", b->t, names[c]);
+    if (isnan(r)) {
+      puts("\tnan\tnan\tnan\tnan\tnan\tnan");
+      continue;
+    }
+    const struct measured m = measure(s, walls, b, r);
+    printf("\t%.17g\t%.17g\t%.17g\t%zu\t%.17g\t%.17g\n", r, m.sum, m.united,
+           m.overlaps.count, m.overlaps.mean, m.overlaps.largest);
+  }
+}
+
+/* Rewrites the frame and says what that did. */
+static void rewrite(const struct settings *s, const struct scene *walls,
+                    struct bed *b, struct bed_header *h, double nominal,
+                    bool quiet) {
+  const double was = b->r[0], r = choose(s, s->keep, walls, b, nominal);
+  if (isnan(r))
+    die(EXIT_INPUT, "t=%g: --keep %s: there is no such radius", b->t,
+        s->keep_text);
+  if (radius_rewrite(b, h, r, s->keep == NOMINAL ? NULL : s->keep_text) !=
+      GSL_SUCCESS)
+    die(EXIT_IO, "out of memory");
+  if (quiet)
+    return;
+  const struct measured m = measure(s, walls, b, r);
+  warn("t=%g: radius %g m, was %g; sum %.5f, union %.5f; %zu overlaps, mean "
+       "%.3g and largest %.3g diameters",
+       b->t, r, was, m.sum, m.united, m.overlaps.count, m.overlaps.mean,
+       m.overlaps.largest);
+}
+
+/* A copy of the keys, which a bed of any format gets. */
+static struct bed_header copy_header(const struct bed_header *from) {
+  struct bed_header h = {0};
+  int status = GSL_SUCCESS;
+  if (!bed_header_get(from, "format"))
+    status = bed_header_add(&h, "format", "bed-1");
+  for (size_t k = 0; k < from->count && status == GSL_SUCCESS; k++)
+    status = bed_header_add(&h, from->at[k].name, from->at[k].value);
+  if (status != GSL_SUCCESS)
+    die(EXIT_IO, "out of memory");
+  return h;
+}
+
+/* The radius that the dynamics had, all spheres of one. */
+static double nominal_radius(const struct bed *b, const struct bed_header *h) {
+  for (size_t i = 1; i < b->n; i++)
+    if (b->r[i] != b->r[0])
+      die(EXIT_INPUT, "t=%g: radii %g and %g: expected spheres of one radius",
+          b->t, b->r[0], b->r[i]);
+  const double r = radius_dynamics(h);
+  if (r < 0)
+    die(EXIT_INPUT, "radius_dynamics=%s: expected a number above 0",
+        bed_header_get(h, "radius_dynamics"));
+  return r > 0 ? r : b->r[0];
+}
+
+static bool turns(const struct bed *b) {
+  for (size_t i = 0; i < 3 * b->n; i++)
+    if (b->w[i] != 0)
+      return true;
+  return false;
+}
+
+int verb_radius(int argc, char **argv) {
+  struct option_list box = {6, {0, 1, 0, 1, 0, 1}};
+  struct settings s = {.keep_text = "nominal", .fraction = 0.64};
+  const char *of = "union";
+  bool report = false;
+  struct frames_options input = {0};
+  /* clang-format off */
+  struct option_spec options[] = {
+      {.name = "keep", .type = OPTION_TEXT, .value = &s.keep_text,
+       .unit = "contact-mean, touching or fraction=F",
+       .help = "what decides the radius: nominal"},
+      {.name = "of", .type = OPTION_TEXT, .value = &of, .choices = measures,
+       .help = "what fraction=F is the fraction of"},
+      {.name = "box", .type = OPTION_LIST, .value = &box, .least = 6,
+       .most = 6, .unit = "m", .help = "x0,x1,y0,y1,z0,z1 of fractions"},
+      {.name = "report", .type = OPTION_FLAG, .value = &report,
+       .help = "a table of what each choice does, instead of the bed"},
+      FRAMES_OPTIONS(input),
+      {0}};
+  /* clang-format on */
+  const struct program program = {
+      .name = "analyze",
+      .summary =
+          "Rewrites a bed with another radius of its geometry, each frame with "
+          "its own:\n"
+          "  nominal       the radius of the dynamics\n"
+          "  contact-mean  the mean gap of pairs and walls that overlap at the "
+          "nominal\n"
+          "                radius is 0\n"
+          "  touching      the largest without any overlap, walls included\n"
+          "  fraction=F    the spheres fill F of the box\n"
+          "The dynamics' radius stays in the header as radius_dynamics; settle "
+          "goes on\n"
+          "from that. Overlaps are in diameters.",
+      .usage = "radius [OPTION...] [FILE]",
+      .example = "settle | analyze radius --keep contact-mean > geometry.tsv",
+      .options = options};
+  const int operand = options_parse(&program, argc, argv);
+  memcpy(s.box, box.at, sizeof s.box);
+  for (int k = 0; k < 6; k += 2)
+    if (!(s.box[k] < s.box[k + 1] && isfinite(s.box[k + 1] - s.box[k])))
+      die(EXIT_USAGE, "--box: expected x0 < x1, y0 < y1, z0 < z1");
+  s.sum = !strcmp(of, "sum");
+  set_keep(&s);
+
+  struct frames frames;
+  struct bed bed = {0};
+  frames_open(&frames, &input, argc, argv, operand);
+  for (bool first = true; frames_next(&frames, &bed); first = false) {
+    struct bed_header header = copy_header(frames_header(&frames));
+    struct scene walls = read_walls(&header);
+    const double nominal = nominal_radius(&bed, &header);
+    if (report) {
+      if (first)
+        puts("t\tkeep\tradius\tsum\tunion\toverlaps\tmean_overlap\t"
+             "largest_overlap");
+      else
+        putchar('\n');
+      print_report(&s, &walls, &bed, nominal);
+    } else {
+      rewrite(&s, &walls, &bed, &header, nominal, input.quiet);
+      if (!first)
+        bed_write_gap(stdout);
+      bed_write_frame(stdout, &header, &bed, turns(&bed));
+    }
+    scene_free(&walls);
+    bed_header_free(&header);
+  }
+  if (!report) {
+    const struct bed_header *h = frames_header(&frames);
+    const char *status = bed_header_get(h, "status");
+    /* what was taken as it is with --allow-partial stays marked */
+    bed_write_status(stdout, status                        ? status
+                             : bed_header_get(h, "format") ? "cut"
+                                                           : "ok");
+  }
+  frames_close(&frames);
+  finish_output();
+  return EXIT_DONE;
+}
