@@ -68,6 +68,8 @@ $(B)/analyze: $(patsubst %.c,$(O)/%.o,$(wildcard analyze/*.c)) $(LIBRARY)
 	$(LINK)
 $(B)/precision: $(patsubst %.c,$(O)/%.o,$(wildcard precision/*.c)) $(LIBRARY)
 	$(LINK)
+$(B)/stability: $(patsubst %.c,$(O)/%.o,$(wildcard stability/*.c)) $(LIBRARY)
+	$(LINK)
 
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 
