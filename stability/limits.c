@@ -131,7 +131,7 @@ static bool grows(struct pressed *p, struct stepper_kind kind, double z) {
   return lost || most[1] > growth * most[0];
 }
 
-static bool amplifies(const struct pressed *p, struct stepper_kind kind,
+static bool amplifies(struct pressed *p, struct stepper_kind kind,
                       double z) {
   double r[2];
   const int status = p->axis == REAL ? stepper_factor(kind, -z, 0, r)
@@ -140,24 +140,20 @@ static bool amplifies(const struct pressed *p, struct stepper_kind kind,
          !(hypot(r[0], r[1]) <= pow(growth, 2. / (double)p->steps));
 }
 
-/* The first z at which a predicate turns true, from 0.01 on. */
+/* The first z at which a predicate turns true, from z on. */
 static double first_z(bool (*test)(struct pressed *, struct stepper_kind,
                                    double),
-                      struct pressed *p, struct stepper_kind kind) {
-  double low = 0, high = 0.01;
+                      struct pressed *p, struct stepper_kind kind, double z) {
+  double low = 0, high = z;
   while (!test(p, kind, high) && high < 1e6) {
     low = high;
     high *= 1.1;
   }
   while (high - low > 1e-4 * high) {
-    const double z = 0.5 * (low + high);
+    z = 0.5 * (low + high);
     *(test(p, kind, z) ? &high : &low) = z;
   }
   return 0.5 * (low + high);
-}
-
-static bool theory_test(struct pressed *p, struct stepper_kind kind, double z) {
-  return amplifies(p, kind, z);
 }
 
 static double theory(struct pressed *p, struct stepper_kind kind) {
@@ -169,13 +165,13 @@ static double theory(struct pressed *p, struct stepper_kind kind) {
      estimate of the spectral radius */
   if (!strcmp(kind.method, "rkc") && !kind.stages)
     return rkc_reach(400) / 1.2;
-  return first_z(theory_test, p, kind);
+  return first_z(amplifies, p, kind, 0.01);
 }
 
 static void print_limit(struct pressed *p, struct stepper_kind kind) {
   char name[32];
   const double expected = theory(p, kind);
-  const double measured = first_z(grows, p, kind);
+  const double measured = first_z(grows, p, kind, expected / 8);
   /* what a step of nearly that size costs */
   const size_t steps = p->steps, before = dynamics_counts(p->dynamics).evaluations;
   p->steps = 8; /* two estimates of rkc's */

@@ -9,7 +9,7 @@
 #include "verbs.h"
 
 int verb_regions(int argc, char **argv) {
-  size_t points = 161;
+  size_t points = 241;
   /* clang-format off */
   struct option_spec options[] = {
       {.name = "points", .type = OPTION_SIZE, .value = &points, .least = 2,

@@ -11,7 +11,9 @@ static const struct {
     {"limits", "largest stable step of each method on two contacts",
      verb_limits},
     {"regions", "the methods' stability functions in the complex plane",
-     verb_regions}};
+     verb_regions},
+    {"tunnel", "fast spheres out of free flight: who misses a contact",
+     verb_tunnel}};
 
 enum { VERBS = sizeof verbs / sizeof *verbs };
 
