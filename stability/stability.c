@@ -13,7 +13,9 @@ static const struct {
     {"regions", "the methods' stability functions in the complex plane",
      verb_regions},
     {"tunnel", "fast spheres out of free flight: who misses a contact",
-     verb_tunnel}};
+     verb_tunnel},
+    {"drift", "energy over a thousand bounces, or in a closed box",
+     verb_drift}};
 
 enum { VERBS = sizeof verbs / sizeof *verbs };
 

@@ -8,6 +8,7 @@
 int verb_limits(int argc, char **argv);
 int verb_regions(int argc, char **argv);
 int verb_tunnel(int argc, char **argv);
+int verb_drift(int argc, char **argv);
 
 /* Parses the options of a verb, which takes no operand, and prints what a file
    of data begins with. */
