@@ -79,8 +79,8 @@ static double energy(const struct motion *m) {
 
 /* Evaluations a unit over the first ten units; positive infinity if they fail
    or take too many. */
-static double cost_of(const struct elastic *e, const struct integrate_options *o,
-                      double too_many) {
+static double cost_of(const struct elastic *e,
+                      const struct integrate_options *o, double too_many) {
   struct motion m;
   const double units = 10;
   if (start(&m, e, o) != GSL_SUCCESS)
@@ -120,7 +120,10 @@ static bool search_cost(const struct elastic *e, struct integrate_options *o,
 int verb_drift(int argc, char **argv) {
   static const char *const scenes[] = {"bounce", "box", NULL};
   const char *name = "bounce";
-  struct elastic e = {.count = 50, .seed = 1, .edge = 1.2, .drop = 1,
+  struct elastic e = {.count = 50,
+                      .seed = 1,
+                      .edge = 1.2,
+                      .drop = 1,
                       .law = scene_default().law};
   e.law.restitution = 1;
   e.law.friction = 0;

@@ -36,9 +36,9 @@ struct pressed {
   struct scene scene;
   struct bed bed;
   struct dynamics *dynamics;
-  double rate; /* |eigenvalue| (1/s) */
-  double slip; /* steady (m/s) */
-  double rest; /* height of the centre (m) */
+  double rate;  /* |eigenvalue| (1/s) */
+  double slip;  /* steady (m/s) */
+  double rest;  /* height of the centre (m) */
   double small; /* the perturbation, as mode_size has it */
   size_t steps; /* that a run takes */
 };
@@ -131,8 +131,7 @@ static bool grows(struct pressed *p, struct stepper_kind kind, double z) {
   return lost || most[1] > growth * most[0];
 }
 
-static bool amplifies(struct pressed *p, struct stepper_kind kind,
-                      double z) {
+static bool amplifies(struct pressed *p, struct stepper_kind kind, double z) {
   double r[2];
   const int status = p->axis == REAL ? stepper_factor(kind, -z, 0, r)
                                      : stepper_factor(kind, 0, z, r);
@@ -173,7 +172,8 @@ static void print_limit(struct pressed *p, struct stepper_kind kind) {
   const double expected = theory(p, kind);
   const double measured = first_z(grows, p, kind, expected / 8);
   /* what a step of nearly that size costs */
-  const size_t steps = p->steps, before = dynamics_counts(p->dynamics).evaluations;
+  const size_t steps = p->steps,
+               before = dynamics_counts(p->dynamics).evaluations;
   p->steps = 8; /* two estimates of rkc's */
   grows(p, kind, 0.98 * measured);
   const double cost =

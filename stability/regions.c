@@ -27,9 +27,9 @@ int verb_regions(int argc, char **argv) {
   static const struct {
     struct stepper_kind kind;
     double left, right, top;
-  } grids[] = {{{"merson", 0}, -6, 2, 6},  {{"dopri5", 0}, -6, 2, 6},
-               {{"rkf45", 0}, -6, 2, 6},   {{"rkck", 0}, -6, 2, 6},
-               {{"rk8pd", 0}, -6, 2, 6},   {{"rkc", 5}, -70, 5, 15},
+  } grids[] = {{{"merson", 0}, -6, 2, 6}, {{"dopri5", 0}, -6, 2, 6},
+               {{"rkf45", 0}, -6, 2, 6},  {{"rkck", 0}, -6, 2, 6},
+               {{"rk8pd", 0}, -6, 2, 6},  {{"rkc", 5}, -70, 5, 15},
                {{"rkc", 10}, -70, 5, 15}};
   for (size_t g = 0; g < sizeof grids / sizeof *grids; g++) {
     char name[32];

@@ -14,8 +14,10 @@ static const struct {
      verb_regions},
     {"tunnel", "fast spheres out of free flight: who misses a contact",
      verb_tunnel},
-    {"drift", "energy over a thousand bounces, or in a closed box",
-     verb_drift}};
+    {"drift", "energy over a thousand bounces, or in a closed box", verb_drift},
+    {"creep", "what friction lets creep below the friction angle", verb_creep},
+    {"cut", "the floor that the cut at lmax puts under the accuracy",
+     verb_cut}};
 
 enum { VERBS = sizeof verbs / sizeof *verbs };
 

@@ -39,9 +39,9 @@ static int shoot(const struct shot *s, const struct integrate_options *o,
   struct scene scene = {.model = SCENE_BASIC, .law = s->law};
   struct bed bed;
   struct motion m;
-  int status = wall ? scene_add_wall(&scene, (double[]){0, 0, 0},
-                                     (double[]){0, 0, -1})
-                    : GSL_SUCCESS;
+  int status =
+      wall ? scene_add_wall(&scene, (double[]){0, 0, 0}, (double[]){0, 0, -1})
+           : GSL_SUCCESS;
   if (status == GSL_SUCCESS)
     status = bed_alloc(&bed, wall ? 1 : 2);
   if (status != GSL_SUCCESS)
@@ -76,8 +76,8 @@ static int shoot(const struct shot *s, const struct integrate_options *o,
   else if (speed < 0)
     *outcome = height < 0 ? MISSED : WRONG;
   else
-    *outcome = fabs(speed / s->speed - 1) <= right && height > 0 ? BOUNCED
-                                                                 : WRONG;
+    *outcome =
+        fabs(speed / s->speed - 1) <= right && height > 0 ? BOUNCED : WRONG;
   *evaluations += dynamics_counts(m.dynamics).evaluations;
   motion_free(&m);
   return GSL_SUCCESS;
