@@ -134,5 +134,8 @@ help: ## this list
 
 include plots/figures.mk
 include bench/bench.mk
+include $(wildcard stability/*.mk)
+# after the includes, each of which may add to the list
+stability: $(STABILITY_FIGURES) ## where methods fail: every chart and table of it (QUICK=1: small ones)
 
 .PHONY: all check fuzz deps demo install clean help
