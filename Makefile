@@ -68,6 +68,8 @@ $(B)/analyze: $(patsubst %.c,$(O)/%.o,$(wildcard analyze/*.c)) $(LIBRARY)
 	$(LINK)
 $(B)/precision: $(patsubst %.c,$(O)/%.o,$(wildcard precision/*.c)) $(LIBRARY)
 	$(LINK)
+$(B)/stability: $(patsubst %.c,$(O)/%.o,$(wildcard stability/*.c)) $(LIBRARY)
+	$(LINK)
 
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 
@@ -132,5 +134,8 @@ help: ## this list
 
 include plots/figures.mk
 include bench/bench.mk
+include $(wildcard stability/*.mk)
+# after the includes, each of which may add to the list
+stability: $(STABILITY_FIGURES) ## where methods fail: every chart and table of it (QUICK=1: small ones)
 
 .PHONY: all check fuzz deps demo install clean help

@@ -41,7 +41,7 @@ void integrate_defaults(struct integrate_options *o) {
     o->tol = strcmp(o->control, "paper") ? 5e-4 : 0.1;
 }
 
-static const gsl_odeiv2_step_type *find_method(const char *name) {
+const gsl_odeiv2_step_type *integrate_step_type(const char *method) {
   const struct {
     const char *name;
     const gsl_odeiv2_step_type *type;
@@ -54,7 +54,7 @@ static const gsl_odeiv2_step_type *find_method(const char *name) {
                  {"verlet", verlet},
                  {"msbdf", gsl_odeiv2_step_msbdf}};
   for (size_t i = 0; i < sizeof methods / sizeof *methods; i++)
-    if (!strcmp(name, methods[i].name))
+    if (!strcmp(method, methods[i].name))
       return methods[i].type;
   return NULL;
 }
@@ -103,7 +103,7 @@ int integrate_alloc(struct integrator **out, const struct integrate_options *o,
                     const struct integrate_problem *problem, double t,
                     const double y[]) {
   const size_t dim = problem->system.dimension;
-  const gsl_odeiv2_step_type *type = find_method(o->method);
+  const gsl_odeiv2_step_type *type = integrate_step_type(o->method);
   if (!type || !options_fit(o, problem, type))
     return GSL_EINVAL;
   struct integrator *it = calloc(1, sizeof *it + 4 * dim * sizeof *y);

@@ -13,6 +13,9 @@
 extern const char *const integrate_methods[];
 extern const char *const integrate_controls[];
 
+/* The step type of that name, or NULL; for work on the steppers themselves. */
+const gsl_odeiv2_step_type *integrate_step_type(const char *method);
+
 struct integrate_options {
   const char *method;
   const char *control;   /* NULL: by method; unused where step > 0 */

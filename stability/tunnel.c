@@ -1,0 +1,146 @@
+/* tunnel: a fast sphere comes out of free flight, where the error estimate is
+   zero and the step grows without bound. Does the method see what it meets:
+   another sphere, or a wall?
+
+   No gravity, e = 1: what comes out must be as fast as what went in. Each
+   row is so many runs that differ in the distance to fly. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_math.h>
+#include "motion.h"
+#include "shared_options.h"
+#include "verbs.h"
+
+enum outcome { BOUNCED, MISSED, WRONG, FAILED, OUTCOMES };
+static const char *const outcome_names[] = {"bounced", "missed", "wrong",
+                                            "failed"};
+
+/* A bounce counts as right when its speed is so far from the exact one, as a
+   share. */
+static const double right = 0.05;
+
+static const double radius = 0.1;
+
+struct shot {
+  const char *target; /* "sphere" or "wall" */
+  double speed;       /* of approach (m/s) */
+  double distance;    /* between surfaces (m) */
+  double travel;      /* m, 0: any */
+  struct contact_law law;
+};
+
+/* The moving sphere comes down on a wall at z = 0, or two equal spheres meet
+   halfway. */
+static int shoot(const struct shot *s, const struct integrate_options *o,
+                 enum outcome *outcome, size_t *evaluations) {
+  const bool wall = !strcmp(s->target, "wall");
+  struct scene scene = {.model = SCENE_BASIC, .law = s->law};
+  struct bed bed;
+  struct motion m;
+  int status =
+      wall ? scene_add_wall(&scene, (double[]){0, 0, 0}, (double[]){0, 0, -1})
+           : GSL_SUCCESS;
+  if (status == GSL_SUCCESS)
+    status = bed_alloc(&bed, wall ? 1 : 2);
+  if (status != GSL_SUCCESS)
+    return status;
+  bed.r[0] = radius;
+  bed.x[2] = radius + s->distance;
+  bed.v[2] = -s->speed;
+  if (!wall) {
+    bed.r[1] = radius;
+    bed.x[2] = radius + 0.5 * s->distance;
+    bed.v[2] = -0.5 * s->speed;
+    bed.x[5] = -bed.x[2];
+    bed.v[5] = -bed.v[2];
+  }
+  status = motion_start(&m, &scene, &bed, o,
+                        &(struct dynamics_options){.threads = 1}, s->travel);
+  bed_free(&bed);
+  scene_free(&scene);
+  if (status != GSL_SUCCESS)
+    return status;
+  const double end = 3 * s->distance / s->speed;
+  bool lost = false;
+  /* beyond so many steps it is stuck */
+  for (size_t k = 0; k < 100000 && integrate_time(m.integrator) < end && !lost;
+       k++)
+    lost = integrate_step(m.integrator) != GSL_SUCCESS;
+  const double *y = integrate_state(m.integrator);
+  const double height = wall ? y[2] : y[2] - y[8];
+  const double speed = wall ? y[5] : y[5] - y[11];
+  if (lost || integrate_time(m.integrator) < end)
+    *outcome = FAILED;
+  else if (speed < 0)
+    *outcome = height < 0 ? MISSED : WRONG;
+  else
+    *outcome =
+        fabs(speed / s->speed - 1) <= right && height > 0 ? BOUNCED : WRONG;
+  *evaluations += dynamics_counts(m.dynamics).evaluations;
+  motion_free(&m);
+  return GSL_SUCCESS;
+}
+
+int verb_tunnel(int argc, char **argv) {
+  struct option_list speeds = {5, {1, 3, 10, 30, 100}};
+  struct option_list tolerances = {6, {1, 0.1, 0.01, 1e-3, 1e-4, 1e-6}};
+  struct integrate_options integrate = {.method = "merson", .hinit = 0.1};
+  struct shot shot = {.law = scene_default().law};
+  shot.law.restitution = 1;
+  double travel = 0;
+  size_t runs = 20;
+  /* clang-format off */
+  struct option_spec options[] = {
+      {.name = "speeds", .type = OPTION_LIST, .value = &speeds, .least = 1,
+       .most = 8, .unit = "m/s", .help = "of approach"},
+      {.name = "tolerances", .type = OPTION_LIST, .value = &tolerances,
+       .least = 1, .most = 8, .unit = "as --control has it", .help = "tried"},
+      {.name = "runs", .type = OPTION_SIZE, .value = &runs, .least = 1,
+       .most = 1e6, .help = "a row, at distances from 2 to 3 m"},
+      LAW_OPTIONS(shot.law),
+      POSITIVE("lmax", &shot.law.lmax, "m",
+               "gap beyond which contacts are skipped"),
+      INTEGRATION_OPTIONS(integrate, travel),
+      {0}};
+  /* clang-format on */
+  const struct program program = {
+      .name = "stability tunnel",
+      .summary = "Shots at a sphere and at a wall out of free flight: how many "
+                 "bounce, are missed,\ncome out with a wrong speed, or fail.",
+      .usage = "[OPTION...]",
+      .example = "stability tunnel --method dopri5 --travel 1",
+      .options = options};
+  verb_begin(&program, argc, argv);
+  integrate_defaults(&integrate);
+  shot.travel = travel / shot.law.kappa;
+  printf("method\ttarget\ttravel\tspeed\ttol\truns");
+  for (size_t k = 0; k < OUTCOMES; k++)
+    printf("\t%s", outcome_names[k]);
+  puts("\tevaluations");
+  static const char *const targets[] = {"sphere", "wall"};
+  for (size_t g = 0; g < 2; g++)
+    for (size_t i = 0; i < speeds.count; i++)
+      for (size_t j = 0; j < tolerances.count; j++) {
+        size_t counts[OUTCOMES] = {0}, evaluations = 0;
+        shot.target = targets[g];
+        shot.speed = speeds.at[i];
+        integrate.tol = tolerances.at[j];
+        for (size_t k = 0; k < runs; k++) {
+          enum outcome outcome;
+          shot.distance = 2 + (double)k / (double)runs;
+          const int status = shoot(&shot, &integrate, &outcome, &evaluations);
+          if (status != GSL_SUCCESS)
+            die(status == GSL_EINVAL ? EXIT_USAGE : EXIT_IO, "method %s: %s",
+                integrate.method, gsl_strerror(status));
+          counts[outcome]++;
+        }
+        printf("%s\t%s\t%g\t%g\t%g\t%zu", integrate.method, shot.target, travel,
+               shot.speed, integrate.tol, runs);
+        for (size_t k = 0; k < OUTCOMES; k++)
+          printf("\t%zu", counts[k]);
+        printf("\t%.4g\n", (double)evaluations / (double)runs);
+      }
+  return EXIT_DONE;
+}
