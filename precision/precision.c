@@ -11,7 +11,14 @@
 #include "shared_options.h"
 #include "version.h"
 
-static const struct precision_scene *const scenes[] = {&scene_collision};
+/* clang-format off: one a line */
+static const struct precision_scene *const scenes[] = {
+    &scene_bounce,       &scene_collision,   &scene_restitution,
+    &scene_toda_open,    &scene_toda_closed, &scene_rolling,
+    &scene_transition,   &scene_exponential, &scene_spring,
+    &scene_walton_braun,
+};
+/* clang-format on */
 
 enum { SCENES = sizeof scenes / sizeof *scenes, LADDER = 16 };
 
@@ -77,7 +84,7 @@ static void print_row(const struct precision_scene *s,
           c->integrate->method);
     if (status != GSL_SUCCESS)
       die(EXIT_IO, "%s: %s", s->name, gsl_strerror(status));
-    runs++;
+    runs += r.runs ? r.runs : 1;
     spent = cpu_seconds() - start;
   } while (spent < timed);
   printf("%s\t%.3g\t%.3g", c->integrate->method, c->integrate->tol,

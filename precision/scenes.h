@@ -23,6 +23,7 @@ struct precision_case {
 
 struct precision_result {
   double error[PRECISION_ERRORS]; /* as precision_scene.errors names them */
+  size_t runs;                    /* that the numbers are means of; 0 is one */
   size_t evaluations, accepted, rejected;
   const char *status; /* one word: "ok", or how it failed */
 };
@@ -44,6 +45,8 @@ struct precision_scene {
              struct precision_result *r);
 };
 
-extern const struct precision_scene scene_collision;
+extern const struct precision_scene scene_bounce, scene_collision,
+    scene_restitution, scene_toda_open, scene_toda_closed, scene_rolling,
+    scene_transition, scene_exponential, scene_spring, scene_walton_braun;
 
 #endif
