@@ -132,5 +132,6 @@ help: ## this list
 
 include plots/figures.mk
 include bench/bench.mk
+include $(wildcard precision/*.mk)
 
 .PHONY: all check fuzz deps demo install clean help

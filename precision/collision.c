@@ -39,7 +39,9 @@ static int run(const struct precision_case *c, const void *reference,
   scene_free(&scene);
   if (status != GSL_SUCCESS)
     return status;
+  measure_start(r);
   r->status = measure_until(m.integrator, 2 * tau, 10000000);
+  measure_stop(r);
   const double *y = integrate_state(m.integrator);
   closed_collision(c->law.f0, c->law.kappa, c->speed, tau, &gap, &velocity);
   const double error[] = {fabs(y[2] - radius - gap), fabs(y[5] - velocity)};

@@ -6,14 +6,12 @@
    that all have the same pace a = kappa v0/2 of the closed form sech^2.
 
    Where within a step a kink lies is chance, so errors are root mean squares
-   over starts that differ by a share of a step. */
+   over MEASURE_STARTS runs. */
 #include <stdlib.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include "closed_forms.h"
 #include "measure.h"
-
-enum { STARTS = 8 };
 
 static const size_t most = 20000000;
 
@@ -51,11 +49,9 @@ static double walton_braun(const struct drop *d, double gap, double rate,
   return stiffness * (-gap - (loading ? 0 : rest));
 }
 
-/* What a sphere does that comes with speed v0 and would, without the contact,
-   be at gap 0 at time touch. */
+/* At the end. */
 struct course {
-  double gap, velocity; /* at the end */
-  double gap_error, velocity_error;
+  double gap, velocity;
 };
 
 typedef double force(const struct drop *, double, double, double[2]);
@@ -97,12 +93,14 @@ static int run_one(const struct precision_case *c, force *law,
   if (status != GSL_SUCCESS)
     return status;
   const double *y = integrate_state(it);
+  measure_start(r);
   const char *word =
       integrate_stop(it, time) == GSL_SUCCESS ? measure_ok : "gave_up";
   while (integrate_time(it) < time && word == measure_ok) {
     word = measure_step(it, most);
     d.deepest = GSL_MAX(d.deepest, -y[0]);
   }
+  measure_stop(r);
   if (word != measure_ok)
     r->status = word;
   *end = (struct course){.gap = y[0], .velocity = y[1]};
@@ -115,78 +113,72 @@ static int run_one(const struct precision_case *c, force *law,
 
 static int run(const struct precision_case *c, force *law,
                const struct course *exact, struct precision_result *r) {
-  const double step = c->integrate->step;
-  const double unit = step > 0 ? step : 1 / pace(c);
   int status = GSL_SUCCESS;
   struct course end;
-  for (size_t k = 0; k < STARTS && status == GSL_SUCCESS; k++)
-    status = run_one(c, law, c->integrate, unit * (double)k / STARTS, exact,
-                     &end, r);
+  for (size_t k = 0; k < MEASURE_STARTS && status == GSL_SUCCESS; k++) {
+    const struct integrate_options o = measure_variant(c->integrate, k);
+    const double more = (double)k / MEASURE_STARTS / pace(c);
+    status = run_one(c, law, &o, more, exact, &end, r);
+  }
   measure_mean(r);
   return status;
 }
 
 /* A reference that prepare found, as main wants it. */
-static int hand_over(struct course exact, void **out,
-                     double reference_error[]) {
+static int hand_over(struct course exact, void **out) {
   struct course *copy = malloc(sizeof *copy);
   if (!copy)
     return GSL_ENOMEM;
   *copy = exact;
   *out = copy;
-  reference_error[0] = exact.gap_error;
-  reference_error[1] = exact.velocity_error;
   return GSL_SUCCESS;
 }
 
-/* e = 1: sech^2. Else the speed is that of the closed form, and the gap that of
-   a tight run, whose error is its distance to another. */
+/* e = 1: sech^2. Else a tight run, whose error is its distance to another. */
 static int prepare_exponential(const struct precision_case *c, void **out,
                                double reference_error[]) {
-  struct course exact = {0};
-  closed_collision(c->law.f0, c->law.kappa, c->speed, half / pace(c),
-                   &exact.gap, &exact.velocity);
-  if (c->law.restitution < 1) {
-    const char *const methods[] = {"rk8pd", "dopri5"};
-    struct course end[2] = {{0}};
+  struct course exact = {0}, other = {0};
+  if (c->law.restitution == 1)
+    closed_collision(c->law.f0, c->law.kappa, c->speed, half / pace(c),
+                     &exact.gap, &exact.velocity);
+  else {
+    struct integrate_options o = {
+        .method = "rk8pd", .control = "standard", .tol = 1e-14, .hinit = 1e-6};
     struct precision_result unused = {0};
-    int status = closed_restitution(&c->law, c->speed, &exact.velocity,
-                                    &exact.velocity_error);
-    for (size_t m = 0; m < 2 && status == GSL_SUCCESS; m++)
-      status = run_one(c, drop_contact,
-                       &(struct integrate_options){.method = methods[m],
-                                                   .control = "standard",
-                                                   .tol = 1e-14,
-                                                   .hinit = 1e-6},
-                       0, &exact, &end[m], &unused);
+    int status = run_one(c, drop_contact, &o, 0, &other, &exact, &unused);
+    o.method = "dopri5";
+    if (status == GSL_SUCCESS)
+      status = run_one(c, drop_contact, &o, 0, &exact, &other, &unused);
     if (status != GSL_SUCCESS)
       return status;
-    exact.gap = end[0].gap;
-    exact.gap_error = fabs(end[0].gap - end[1].gap);
+    reference_error[0] = fabs(exact.gap - other.gap);
+    reference_error[1] = fabs(exact.velocity - other.velocity);
   }
-  return hand_over(exact, out, reference_error);
+  return hand_over(exact, out);
 }
 
 /* Half a period, or a quarter of each spring's, and flight at v0 or e v0. */
-static int prepare_springs(const struct precision_case *c, double e, void **out,
-                           double reference_error[]) {
+static int prepare_springs(const struct precision_case *c, double e,
+                           void **out) {
   const double a = pace(c);
   const double contact = M_PI_2 / a * (1 + e);
   const double overlap = c->speed / a * (1 - e * e);
   const double flight = (half + M_PI_2) / a - contact;
   return hand_over((struct course){.gap = e * c->speed * flight - overlap,
                                    .velocity = e * c->speed},
-                   out, reference_error);
+                   out);
 }
 
 static int prepare_spring(const struct precision_case *c, void **out,
                           double reference_error[]) {
-  return prepare_springs(c, 1, out, reference_error);
+  (void)reference_error;
+  return prepare_springs(c, 1, out);
 }
 
 static int prepare_walton_braun(const struct precision_case *c, void **out,
                                 double reference_error[]) {
-  return prepare_springs(c, c->law.restitution, out, reference_error);
+  (void)reference_error;
+  return prepare_springs(c, c->law.restitution, out);
 }
 
 static int run_exponential(const struct precision_case *c,

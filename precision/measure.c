@@ -1,6 +1,8 @@
+#define _POSIX_C_SOURCE 200809L
 #include "measure.h"
 
 #include <math.h>
+#include <time.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 
@@ -41,6 +43,27 @@ const char *measure_event(struct integrator *it,
   }
 }
 
+struct integrate_options measure_variant(const struct integrate_options *o,
+                                         size_t k) {
+  struct integrate_options variant = *o;
+  variant.step /= 1 + 0.1 * (double)k / MEASURE_STARTS;
+  return variant;
+}
+
+double measure_clock(void) {
+  struct timespec t;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+void measure_start(struct precision_result *r) {
+  r->started = measure_clock();
+}
+
+void measure_stop(struct precision_result *r) {
+  r->cpu_seconds += measure_clock() - r->started;
+}
+
 void measure_add(struct precision_result *r, const struct integrator *it,
                  size_t evaluations, const double error[], size_t errors) {
   const struct integrate_counts counts = integrate_counts(it);
@@ -54,6 +77,7 @@ void measure_add(struct precision_result *r, const struct integrator *it,
 
 void measure_mean(struct precision_result *r) {
   const double runs = (double)r->runs;
+  r->cpu_seconds /= runs;
   r->evaluations = (size_t)lround((double)r->evaluations / runs);
   r->accepted = (size_t)lround((double)r->accepted / runs);
   r->rejected = (size_t)lround((double)r->rejected / runs);

@@ -25,8 +25,23 @@ const char *measure_event(struct integrator *it,
                                           void *params),
                           void *params, size_t most);
 
+/* Where within a step a kink falls is chance: scenes with one take root mean
+   squares over so many runs, which start at different times and whose fixed
+   steps differ, too, by up to a tenth. */
+enum { MEASURE_STARTS = 8 };
+
+/* The options of the k-th of these runs. */
+struct integrate_options measure_variant(const struct integrate_options *o,
+                                         size_t k);
+
 /* Copies the counts of a run into r. */
 void measure_counts(const struct motion *m, struct precision_result *r);
+
+/* CPU time of this process (s). Between start and stop it is counted as the
+   integration's. */
+double measure_clock(void);
+void measure_start(struct precision_result *r);
+void measure_stop(struct precision_result *r);
 
 /* Adds a run to r: its counts, and its errors squared. */
 void measure_add(struct precision_result *r, const struct integrator *it,

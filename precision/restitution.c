@@ -37,9 +37,11 @@ static int run(const struct precision_case *c, const void *reference,
   if (status != GSL_SUCCESS)
     return status;
   const double *y = integrate_state(it);
+  measure_start(r);
   do
     r->status = measure_step(it, most);
   while (r->status == measure_ok && (y[1] <= 0 || y[0] < far));
+  measure_stop(r);
   const double error = fabs(y[1] - *(const double *)reference) / c->speed;
   measure_add(r, it, d.evaluations, &error, 1);
   integrate_free(it);

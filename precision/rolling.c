@@ -1,13 +1,11 @@
 /* A sphere that slides on the floor until it rolls. Friction is only C^1: at
    the slip speed vmin its second derivative jumps. What a method makes of that
    depends on where within a step it happens, so errors are root mean squares
-   over starts that differ by a share of a step. */
+   over MEASURE_STARTS runs. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include "closed_forms.h"
 #include "measure.h"
-
-enum { STARTS = 8, DIM = 9 };
 
 static const double radius = 0.1, direction[2] = {0.6, 0.8};
 
@@ -22,9 +20,10 @@ static double slip_of(const double y[]) {
   return hypot(y[3] - radius * y[7], y[4] + radius * y[6]);
 }
 
-/* Slides with the given speed, at rest on the floor. */
-static int start(const struct precision_case *c, double speed,
+/* The k-th run: slides with the given speed, at rest on the floor. */
+static int start(const struct precision_case *c, double speed, size_t k,
                  struct motion *m) {
+  const struct integrate_options o = measure_variant(c->integrate, k);
   struct scene scene = {
       .model = SCENE_ROTATION, .law = c->law, .gravity = {0, 0, -c->gravity}};
   struct bed bed = {0};
@@ -35,9 +34,9 @@ static int start(const struct precision_case *c, double speed,
   if (status == GSL_SUCCESS) {
     bed.r[0] = radius;
     bed.x[2] = radius + closed_rest_gap(&c->law, c->gravity);
-    for (int k = 0; k < 2; k++)
-      bed.v[k] = speed * direction[k];
-    status = motion_start(m, &scene, &bed, c->integrate,
+    for (int i = 0; i < 2; i++)
+      bed.v[i] = speed * direction[i];
+    status = motion_start(m, &scene, &bed, &o,
                           &(struct dynamics_options){.threads = 1}, c->travel);
   }
   bed_free(&bed);
@@ -45,12 +44,10 @@ static int start(const struct precision_case *c, double speed,
   return status;
 }
 
-/* Earlier starts by a share of a fixed step, or of what friction takes to go
-   through vmin. */
+/* What friction takes to go through vmin, shared among the runs, is how much
+   earlier they start. */
 static double earlier(const struct precision_case *c, size_t k) {
-  const double unit =
-      c->integrate->step > 0 ? c->integrate->step : c->law.vmin / full_rate(c);
-  return unit * (double)k / STARTS;
+  return c->law.vmin / full_rate(c) * (double)k / MEASURE_STARTS;
 }
 
 /* Velocity at the end against 5/7 of the first and what slip is left. */
@@ -61,13 +58,15 @@ static int run_velocity(const struct precision_case *c, const void *reference,
   const double full = (c->speed - c->law.vmin) / rate;
   double share;
   int status = closed_slip_share(c->time - full, c->law.vmin, rate, &share);
-  for (size_t k = 0; k < STARTS && status == GSL_SUCCESS; k++) {
+  for (size_t k = 0; k < MEASURE_STARTS && status == GSL_SUCCESS; k++) {
     struct motion m;
     const double more = earlier(c, k), v0 = c->speed + rate * more;
-    status = start(c, v0, &m);
+    status = start(c, v0, k, &m);
     if (status != GSL_SUCCESS)
       return status;
+    measure_start(r);
     const char *word = measure_until(m.integrator, c->time + more, most);
+    measure_stop(r);
     const double *y = integrate_state(m.integrator);
     const double rolling = 5. / 7 * v0 + 2. / 7 * share * c->law.vmin;
     const double spin[2] = {radius * y[7], -radius * y[6]};
@@ -107,14 +106,16 @@ static int run_transition(const struct precision_case *c, const void *reference,
   const double rate = full_rate(c);
   const double exact = (c->speed - c->law.vmin) / rate +
                        closed_slip_time(0.5, c->law.vmin, rate);
-  for (size_t k = 0; k < STARTS; k++) {
+  for (size_t k = 0; k < MEASURE_STARTS; k++) {
     struct motion m;
     const double more = earlier(c, k);
-    const int status = start(c, c->speed + rate * more, &m);
+    const int status = start(c, c->speed + rate * more, k, &m);
     if (status != GSL_SUCCESS)
       return status;
     struct slipping s = {0.5 * c->law.vmin, rate, c->law};
+    measure_start(r);
     const char *word = measure_event(m.integrator, to_slip, &s, most);
+    measure_stop(r);
     /* a step that passed it, by an interpolation of first order: never with
        the bound of to_slip but for errors of the method */
     const double *y = integrate_state(m.integrator);

@@ -23,9 +23,13 @@ struct precision_case {
 
 struct precision_result {
   double error[PRECISION_ERRORS]; /* as precision_scene.errors names them */
-  size_t runs;                    /* that the numbers are means of; 0 is one */
   size_t evaluations, accepted, rejected;
-  const char *status; /* one word: "ok", or how it failed */
+  double cpu_seconds; /* of the integration; 0: main times the whole run */
+  double started;     /* by measure_start */
+  size_t runs;        /* that the numbers are means of; 0 is one */
+  /* One word: "ok", or how it failed; "lost" where an error is as large as
+     what is computed. */
+  const char *status;
 };
 
 struct precision_scene {

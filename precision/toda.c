@@ -119,7 +119,9 @@ static int run(const struct precision_case *c, bool closed,
   if (status == GSL_SUCCESS)
     status = eigenvalues(&line, integrate_state(m.integrator), value);
   if (status == GSL_SUCCESS) {
+    measure_start(r);
     r->status = measure_until(m.integrator, c->time, most);
+    measure_stop(r);
     status = eigenvalues(&line, integrate_state(m.integrator), value + size);
   }
   if (status == GSL_SUCCESS) {
@@ -131,6 +133,8 @@ static int run(const struct precision_case *c, bool closed,
     measure_add(r, m.integrator, dynamics_counts(m.dynamics).evaluations,
                 &moved, 1);
     measure_mean(r);
+    if (r->status == measure_ok && !(moved <= 1))
+      r->status = "lost";
   }
   motion_free(&m);
   bed_free(&bed);
