@@ -134,7 +134,7 @@ help: ## this list
 
 include plots/figures.mk
 include bench/bench.mk
-include $(wildcard stability/*.mk)
+include $(wildcard precision/*.mk stability/*.mk)
 # after the includes, each of which may add to the list
 stability: $(STABILITY_FIGURES) ## where methods fail: every chart and table of it (QUICK=1: small ones)
 

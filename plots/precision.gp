@@ -63,6 +63,7 @@ do for [b=1:blocks] {
 set title ARG3 offset 0,(style_end eq ".svg" ? -0.6 : 0)
 set tmargin at screen 0.91
 set lmargin at screen 0.19
+set rmargin at screen 0.955
 set logscale xy
 set xrange [xlow:xhigh]
 set yrange [ylow:yhigh]

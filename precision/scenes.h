@@ -24,7 +24,12 @@ struct precision_case {
 struct precision_result {
   double error[PRECISION_ERRORS]; /* as precision_scene.errors names them */
   size_t evaluations, accepted, rejected;
-  const char *status; /* one word: "ok", or how it failed */
+  double cpu_seconds; /* of the integration; 0: main times the whole run */
+  double started;     /* by measure_start */
+  size_t runs;        /* that the numbers are means of; 0 is one */
+  /* One word: "ok", or how it failed; "lost" where an error is as large as
+     what is computed. */
+  const char *status;
 };
 
 struct precision_scene {
@@ -44,6 +49,8 @@ struct precision_scene {
              struct precision_result *r);
 };
 
-extern const struct precision_scene scene_collision;
+extern const struct precision_scene scene_bounce, scene_collision,
+    scene_restitution, scene_toda_open, scene_toda_closed, scene_rolling,
+    scene_transition, scene_exponential, scene_spring, scene_walton_braun;
 
 #endif

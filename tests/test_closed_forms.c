@@ -13,7 +13,6 @@
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_fit.h>
-#include <gsl/gsl_integration.h>
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_multifit.h>
 #include <gsl/gsl_rng.h>
@@ -22,6 +21,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "check.h"
+#include "closed_forms.h"
 #include "motion.h"
 
 #define ULPS(n) ((n)*DBL_EPSILON)
@@ -144,27 +144,15 @@ static double find_root(double (*f)(double, void *), void *params, double a,
   return root;
 }
 
-static double integral(double (*f)(double, void *), void *params, double a,
-                       double b) {
-  gsl_function function = {f, params};
-  gsl_integration_workspace *w = gsl_integration_workspace_alloc(1000);
-  double result, error;
-  /* where rounding stops it early the error tells */
-  gsl_integration_qag(&function, a, b, 0, 1e-13, 1000, GSL_INTEG_GAUSS31, w,
-                      &result, &error);
-  gsl_integration_workspace_free(w);
-  return error <= 1e-12 * fabs(result) ? result : GSL_NAN;
-}
-
 /* --- 1: elastic contact without gravity ------------------------------------*/
 
-/* With f the force at touch between bodies of reduced mass mu = 1/inverse:
-   the gap of a contact of initial speed v0, tau from the turning point. */
+/* The gap tau from the turning point; f is the force at touch between bodies
+   of reduced mass 1/inverse. */
 static double sech_gap(double f, double kappa, double inverse, double v0,
                        double tau) {
-  const double a = kappa * v0 / 2;
-  const double c = cosh(a * tau);
-  return -log(kappa * v0 * v0 / (2 * f * inverse) / (c * c)) / kappa;
+  double gap, velocity;
+  closed_collision(f * inverse, kappa, v0, tau, &gap, &velocity);
+  return gap;
 }
 
 /* A sphere and an oblique wall or two equal spheres on an oblique line, that
@@ -290,36 +278,6 @@ static void test_elastic(void) {
 
 /* --- 2: restitution at finite psi ------------------------------------------*/
 
-/* (2.4), for u of which exp(-2 psi u) is below rounding too */
-static double rho(const struct contact_law *c, double u) {
-  const double e2 = c->restitution * c->restitution;
-  return e2 + (1 - e2) / (1 + exp(-2 * c->psi * u));
-}
-
-static double loading(double u, void *params) {
-  return u / rho(params, u);
-}
-
-static double unloading(double u, void *params) {
-  return u / rho(params, -u);
-}
-
-struct rebound {
-  struct contact_law *law;
-  double spent;
-};
-
-static double rebound_rest(double v, void *params) {
-  const struct rebound *r = params;
-  return v == 0 ? -r->spent : integral(unloading, r->law, 0, v) - r->spent;
-}
-
-static double rebound_speed(struct contact_law *law, double v0) {
-  struct rebound r = {law, integral(loading, law, 0, v0)};
-  /* equal at e = 1, up to rounding */
-  return find_root(rebound_rest, &r, 0, v0 * (1 + 1e-6));
-}
-
 /* Speed after a contact with the floor, and the sum of local errors. It starts
    where 1e-14 of the energy is left to come from further away. */
 static double rebound_simulated(double f0, double kappa, double e, double psi,
@@ -363,7 +321,10 @@ static void test_restitution(void) {
     for (size_t k = 0; k < COUNT(es); k++) {
       struct contact_law law = scene_default().law;
       law.restitution = es[k];
-      const double v0 = speeds[i], v1 = rebound_speed(&law, v0);
+      const double v0 = speeds[i];
+      double v1 = GSL_NAN, off = GSL_NAN;
+      CHECK(closed_restitution(&law, v0, &v1, &off) == GSL_SUCCESS &&
+            off <= 1e-12 * v0);
       CHECK(v1 > 0 && v1 <= v0 * (1 + 1e-12));
       for (size_t s = 0; s < COUNT(stiffness); s++)
         for (size_t m = 0; m < (s ? 1 : COUNT(methods)); m++) {
@@ -499,17 +460,6 @@ static void test_toda(void) {
 
 /* --- 4: from sliding to rolling --------------------------------------------*/
 
-/* At rest on the floor F rho(0) = normal. */
-static double rest_gap(const struct contact_law *c, double normal) {
-  return log(c->f0 * rho(c, 0) / normal) / c->kappa;
-}
-
-/* Time in which slip falls from vmin to s vmin, if it falls by rate Sigma:
-   the integral of 1/(3 s^2 - 2 s^3). */
-static double slip_time(double s, double vmin, double rate) {
-  return vmin / rate * (1 / (3 * s) - 2. / 9 * log(s / (3 - 2 * s)) - 1. / 3);
-}
-
 /* Forces on the sphere change the slip of its surface by 1 + 5/2. */
 static void test_rolling(void) {
   for (size_t m = 0; m < COUNT(methods); m++) {
@@ -517,11 +467,11 @@ static void test_rolling(void) {
     world_floor(&w);
     const struct contact_law *law = &w.scene.law;
     const double v0 = 1, direction[2] = {0.6, 0.8}, r = 0.1;
-    w.bed.x[2] = r + rest_gap(law, g);
+    w.bed.x[2] = r + closed_rest_gap(law, g);
     for (int k = 0; k < 2; k++)
       w.bed.v[k] = v0 * direction[k];
     world_start(&w, methods[m], 0);
-    const double rate = 3.5 * law->friction * g / rho(law, 0);
+    const double rate = 3.5 * law->friction * g / contact_rebound(law, 0);
     const double end = (v0 - law->vmin) / rate; /* of full friction */
     double moved = 0, wrong = 0, slip = 0;
     size_t sliding = 0, creeping = 0;
@@ -543,9 +493,13 @@ static void test_rolling(void) {
       } else {
         creeping++;
         const double s = slip / law->vmin, sigma = s * s * (3 - 2 * s);
-        wrong =
-            GSL_MAX(wrong, fabs(now(&w) - end - slip_time(s, law->vmin, rate)) /
-                               (tol / (rate * sigma)));
+        double share = GSL_NAN; /* and back */
+        CHECK(closed_slip_share(now(&w) - end, law->vmin, rate, &share) ==
+              GSL_SUCCESS);
+        CHECK_CLOSE(share, s, tol / law->vmin);
+        wrong = GSL_MAX(
+            wrong, fabs(now(&w) - end - closed_slip_time(s, law->vmin, rate)) /
+                       (tol / (rate * sigma)));
       }
       if (isnan(slip))
         wrong = GSL_NAN;
@@ -571,7 +525,7 @@ static void incline(struct world *w, double angle) {
   world_floor(w);
   w->scene.gravity[0] = g * sin(angle);
   w->scene.gravity[2] = -g * cos(angle);
-  w->bed.x[2] = w->bed.r[0] + rest_gap(&w->scene.law, g * cos(angle));
+  w->bed.x[2] = w->bed.r[0] + closed_rest_gap(&w->scene.law, g * cos(angle));
 }
 
 /* 3 s^2 - 2 s^3 = q in [0, 1] */
@@ -588,7 +542,8 @@ static void test_incline(void) {
       struct world w = world_new(1, 0.1);
       w.scene.model = SCENE_FRICTION;
       const struct contact_law *law = &w.scene.law;
-      const double limit = law->friction / rho(law, 0); /* T/N of full slip */
+      const double limit =
+          law->friction / contact_rebound(law, 0); /* T/N of full slip */
       const double angle = atan(shares[k] * limit);
       incline(&w, angle);
       world_start(&w, methods[m], 0);
@@ -624,7 +579,7 @@ static void test_rolling_down(void) {
   for (size_t m = 0; m < COUNT(methods); m++) {
     struct world w = world_new(1, 0.1);
     const struct contact_law *law = &w.scene.law;
-    const double limit = law->friction / rho(law, 0), angle = 0.5;
+    const double limit = law->friction / contact_rebound(law, 0), angle = 0.5;
     incline(&w, angle);
     world_start(&w, methods[m], 0);
     CHECK(reach(&w, 0.5));
@@ -655,7 +610,7 @@ static void oscillate(const struct contact_law *law, const char *method,
   w.scene.model = SCENE_BASIC;
   w.scene.law = *law;
   w.hmax = interval / 16; /* interpolates to 4e-10 of the deflection */
-  const double rest = 0.1 + rest_gap(law, g);
+  const double rest = 0.1 + closed_rest_gap(law, g);
   w.bed.x[2] = rest + deflection;
   world_start(&w, method, 0);
   for (size_t k = 0; k < n; k++) {
@@ -808,45 +763,13 @@ static void test_energy(void) {
 
 static const double height = 16;
 
-struct fall {
-  double f0, kappa, energy, low;
-};
-
-static double fall_potential(double l, void *params) {
-  const struct fall *f = params;
-  return g * l + f->f0 / f->kappa * exp(-f->kappa * l) - f->energy;
-}
-
-/* dt/ds with l = low + s^2, exact in the difference of potentials, which
-   vanishes as s^2 at the turning point */
-static double fall_low(double s, void *params) {
-  const struct fall *f = params;
-  const double x = s * s;
-  const double share =
-      x > 0 ? -expm1(-f->kappa * x) / (f->kappa * x) : 1; /* to 1 at 0 */
-  const double twice = 2 * (f->f0 * exp(-f->kappa * f->low) * share - g);
-  return 2 / sqrt(twice);
-}
-
-/* and with l = height - s^2, where nothing of the contact is left at 0 */
-static double fall_high(double s, void *params) {
-  const struct fall *f = params;
-  const double x = s * s;
-  const double push =
-      x > 0 ? f->f0 * exp(-f->kappa * (height - x)) / (f->kappa * x) : 0;
-  return 2 / sqrt(2 * (g - push));
-}
-
-/* From the drop to the next apex, e = 1. Split where the contact begins. */
+/* From the drop to the next apex, e = 1. */
 static double rebound_time(double f0, double kappa) {
-  struct fall f = {f0, kappa, g * height + f0 / kappa * exp(-kappa * height),
-                   0};
-  const double split = 40 / kappa;
-  /* e times as much energy as there is at the lower end */
-  f.low = find_root(fall_potential, &f,
-                    -(log(kappa * f.energy / f0) + 1) / kappa, split);
-  return 2 * (integral(fall_low, &f, 0, sqrt(split - f.low)) +
-              integral(fall_high, &f, 0, sqrt(height - split)));
+  double time = GSL_NAN, error = GSL_NAN;
+  CHECK(closed_rebound_time(f0, kappa, g, height, &time, &error) ==
+            GSL_SUCCESS &&
+        error < 1e-11);
+  return time;
 }
 
 static double speed_at(double t, void *params) {
