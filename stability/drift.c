@@ -105,7 +105,7 @@ static bool search_cost(const struct elastic *e, struct integrate_options *o,
     return true;
   }
   double found = 0;
-  double low = log(1e-15), high = log(1e3);
+  double low = log(1e-15), high = log(0.1);
   for (int k = 0; k < 30; k++) {
     const double middle = 0.5 * (low + high);
     o->tol = exp(middle);
