@@ -131,6 +131,7 @@ help: ## this list
 	  expand -t 16
 
 include plots/figures.mk
+include plots/structure.mk
 include bench/bench.mk
 
 .PHONY: all check fuzz deps demo install clean help
