@@ -133,6 +133,7 @@ help: ## this list
 	  expand -t 16
 
 include plots/figures.mk
+include plots/structure.mk
 include bench/bench.mk
 include $(wildcard precision/*.mk stability/*.mk)
 # after the includes, each of which may add to the list
