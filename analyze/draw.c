@@ -1,7 +1,6 @@
 /* draw: one frame as shaded balls in their box, by gnuplot. */
 #include <math.h>
 #include <stdlib.h>
-#include <unistd.h>
 #include "frames.h"
 #include "picture.h"
 #include "verbs.h"
@@ -36,12 +35,10 @@ int verb_draw(int argc, char **argv) {
   if (output && !svg && !ends_in(output, ".png"))
     die(EXIT_USAGE, "--output %s: expected a name that ends in .png or .svg",
         output);
-  if (!output && isatty(STDOUT_FILENO))
-    die(EXIT_USAGE, "expected --output, or a file or pipe for the picture");
   if (wanted != floor(wanted))
     die(EXIT_USAGE, "--frame %g: expected a whole number", wanted);
   picture.facets = svg ? 30000 : 120000;
-  picture_begin(&picture);
+  picture_begin(&picture, output);
 
   struct frames frames;
   struct bed bed = {0}, next = {0};
@@ -64,7 +61,7 @@ int verb_draw(int argc, char **argv) {
 
   char *drawn = picture_path(&picture, svg ? "bed.svg" : "bed.png");
   picture_draw(&picture, "bed.tsv", drawn);
-  picture_deliver(drawn, output);
+  picture_deliver(&picture, drawn);
   free(drawn);
   return EXIT_DONE;
 }

@@ -66,11 +66,13 @@ int verb_movie(int argc, char **argv) {
     die(EXIT_USAGE,
         "--output %s: expected a name that ends in .gif, .mp4 or .webm",
         output);
-  if (!output && isatty(STDOUT_FILENO))
-    die(EXIT_USAGE, "expected --output, or a file or pipe for the animation");
   picture.half_size = gif;
-  picture_begin(&picture);
+  picture_begin(&picture, output);
 
+  if (!gif) { /* say so before the work */
+    const char *const version[] = {"ffmpeg", "-version", NULL};
+    picture_run(&picture, "ffmpeg", version);
+  }
   struct frames frames;
   frames_open(&frames, &input, argc, argv, operand);
   const size_t count = read_frames(&frames, &picture);
@@ -98,7 +100,7 @@ int verb_movie(int argc, char **argv) {
     picture_run(&picture, "ffmpeg", argv_video);
     free(pictures);
   }
-  picture_deliver(made, output);
+  picture_deliver(&picture, made);
   free(made);
   return EXIT_DONE;
 }

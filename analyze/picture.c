@@ -12,7 +12,6 @@
 #include <unistd.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
-#include "files.h"
 #include "neighbors.h"
 
 const char *const picture_colors[] = {"height",   "speed", "radius",
@@ -47,11 +46,16 @@ static void remove_scratch(void) {
   rmdir(scratch);
 }
 
-void picture_begin(struct picture *p) {
+void picture_begin(struct picture *p, const char *output) {
   if (!(p->view.at[1] >= 0 && p->view.at[1] <= 90) ||
       !(fabs(p->view.at[0]) <= 360))
     die(EXIT_USAGE, "--view: expected a turn from -360 to 360 and an angle to "
                     "the vertical from 0 to 90");
+  if (!output && isatty(STDOUT_FILENO))
+    die(EXIT_USAGE, "expected --output, or a file or pipe for the picture");
+  p->file.stream = stdout;
+  if (output)
+    output_open(&p->file, output);
   const char *place = getenv("TMPDIR");
   p->scratch = scratch =
       joined(place && *place ? place : "/tmp", "/dem-XXXXXX", "");
@@ -347,23 +351,20 @@ void picture_draw(const struct picture *p, const char *name,
   free(data);
 }
 
-void picture_deliver(const char *path, const char *output) {
-  struct output_file file = {.stream = stdout};
+void picture_deliver(struct picture *p, const char *path) {
   FILE *in = fopen(path, "rb");
   if (!in)
     die(EXIT_IO, "%s: %s", path, strerror(errno));
-  if (output)
-    output_open(&file, output);
   char part[1 << 14];
   for (size_t n; (n = fread(part, 1, sizeof part, in)) > 0;)
-    if (fwrite(part, 1, n, file.stream) != n)
+    if (fwrite(part, 1, n, p->file.stream) != n)
       break; /* what follows finds the error */
   const bool failed = ferror(in);
   fclose(in);
   if (failed)
     die(EXIT_IO, "%s: read error", path);
-  if (output)
-    output_commit(&file);
+  if (p->file.path)
+    output_commit(&p->file);
   else
     finish_output();
 }

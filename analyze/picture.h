@@ -5,6 +5,7 @@
 #define PICTURE_H
 
 #include "bed_io.h"
+#include "files.h"
 #include "options.h"
 
 struct picture {
@@ -13,6 +14,7 @@ struct picture {
   size_t facets;           /* of all balls together, about */
   bool half_size;          /* 640 x 480 pixels */
   char *scratch;           /* directory */
+  struct output_file file; /* what is made, or standard output */
   double box[6];           /* x0 x1 y0 y1 z0 z1 (m), grown by picture_measure */
   bool fixed[6];           /* a wall of the scene */
   double low, high;        /* of what the colours show */
@@ -30,8 +32,9 @@ extern const char *const picture_colors[];
    .help = "turn around the vertical, angle to it"}
 /* clang-format on */
 
-/* Checks the options and makes the scratch directory. */
-void picture_begin(struct picture *p);
+/* Checks the options, makes the scratch directory and opens what is to be made:
+   output, whole or not at all, or standard output for NULL. */
+void picture_begin(struct picture *p, const char *output);
 
 /* A path in the scratch directory; the caller frees it. */
 char *picture_path(const struct picture *p, const char *name);
@@ -60,8 +63,7 @@ char *picture_script(const char *name);
 /* Does a name end so? */
 bool ends_in(const char *name, const char *ending);
 
-/* Copies a finished file to where it is wanted, whole or not at all; to
-   standard output if output is NULL. */
-void picture_deliver(const char *path, const char *output);
+/* Copies a finished file to where it is wanted. */
+void picture_deliver(struct picture *p, const char *path);
 
 #endif

@@ -144,7 +144,7 @@ set label 2 caption.(t_frame == t_frame ? \
 # for fewer balls, and coarser in an .svg, where a facet takes 150 bytes.
 if (!exists("facets")) {facets = style_end eq ".svg" ? 30000. : 120000.}
 rings = int(sqrt(facets/(3*n)))
-rings = rings < 6 ? 6 : rings > 16 ? 16 : rings
+rings = rings < 6 ? 6 : rings > 40 ? 40 : rings
 la = -0.40              # to the light
 lb = 0.60
 lc = sqrt(1 - la**2 - lb**2)
