@@ -71,6 +71,8 @@ $(B)/precision: $(patsubst %.c,$(O)/%.o,$(wildcard precision/*.c)) $(LIBRARY)
 $(B)/stability: $(patsubst %.c,$(O)/%.o,$(wildcard stability/*.c)) $(LIBRARY)
 	$(LINK)
 
+$(O)/analyze/picture.o: ALL_CFLAGS += -DPLOTS_SOURCE='"$(CURDIR)/plots"'
+
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 
 # Tests: every tests/test_*.c is a program, every tests/test_*.sh a script; each
@@ -121,9 +123,12 @@ demo: all ## settle 200 spheres, print the packing fraction, draw the bed
 	gnuplot -c plots/bed.gp $(B)/demo.tsv $(B)/demo.png
 	@echo "the bed: $(B)/demo.tsv, its picture: $(B)/demo.png"
 
-install: all ## copy the programs to PREFIX/bin
+install: all ## copy the programs to PREFIX/bin, what they draw with to PREFIX/share
 	install -d $(DESTDIR)$(PREFIX)/bin
 	install $(B)/bounce $(B)/settle $(B)/analyze $(DESTDIR)$(PREFIX)/bin
+	install -d $(DESTDIR)$(PREFIX)/share/dem/plots
+	install -m 644 plots/{style,balls,bed,movie}.gp \
+	  $(DESTDIR)$(PREFIX)/share/dem/plots
 
 clean: ## remove everything that was made
 	rm -rf $(B)

@@ -13,7 +13,9 @@
   VERB(gr, "pair correlation")                                                 \
   VERB(order, "bond order q4 and q6: fcc, hcp or none")                        \
   VERB(radius, "the geometry's radius, and the bed with another one")          \
-  VERB(export, "the bed for other programs, or as voxels")
+  VERB(export, "the bed for other programs, or as voxels")                     \
+  VERB(draw, "a picture of one frame, PNG or SVG")                             \
+  VERB(movie, "an animation of all frames, GIF, MP4 or WebM")
 /* clang-format on */
 
 #define VERB_FUNCTION(name, what) int verb_##name(int argc, char **argv);

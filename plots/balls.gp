@@ -4,15 +4,23 @@
 #   box_height                least height of the box drawn, m
 #   metre                     nominal pixels a metre, 0: as large as fits
 #   caption                   written above, before the time of the frame
-# and loads this.
+# and loads this. It may also set
+#   turn, tilt                the view: around the vertical, and to it, degrees
+#   origin_x.., base_x..      the box's corner and base, m; else base= of BED
+#   value_column, value_low, value_high
+#                             what is coloured; else the id, from 0 to the last
+#   lean                      room for balls that lean out of the box, m
+#   facets                    of all balls together
 #
 # The balls are turned into the viewer's axes here and drawn as a map, so that
 # their scale is known. Of a ball only the half that faces the viewer is seen:
 # one mesh of rings around the line of sight serves all balls, with its light
 # (Lambert's law and a highlight) worked out once.
 
-tilt = 72               # of the view, from above, degrees
-turn = 30               # and around the vertical
+if (!exists("tilt")) {tilt = 72}        # of the view, from above, degrees
+if (!exists("turn")) {turn = 30}        # and around the vertical
+if (!exists("lean")) {lean = 0.03}
+if (!exists("value_column")) {value_column = "id"}
 set angles degrees
 ax = cos(turn)          # a: to the right
 ay = sin(turn)
@@ -27,8 +35,13 @@ b(x, y, z) = bx*x + by*y + bz*z
 c(x, y, z) = cx*x + cy*y + cz*z
 
 # the header: base in the first frame, t in any
-base_x = 1.
-base_y = 1.
+if (!exists("origin_x")) {
+  origin_x = 0.
+  origin_y = 0.
+  origin_z = 0.
+  base_x = 1.
+  base_y = 1.
+}
 t_frame = NaN
 key(name) = strcol(1)[:strlen(name)+3] eq "# ".name."="
 text(name) = strcol(1)[strlen(name)+4:]
@@ -51,28 +64,36 @@ if (!exists("STATS_records")) {
   exit status 3
 }
 n = STATS_records
-box_top = STATS_max > box_height ? STATS_max : box_height
+box_top = STATS_max - origin_z > box_height ? STATS_max - origin_z : box_height
 array ball_a[n]
 array ball_b[n]
 array ball_c[n]
 array ball_r[n]
-array ball_id[n]
+array ball_value[n]
 ball = 0
 stats bed index frame using (ball = ball + 1, \
-  ball_a[ball] = a(column("x"), column("y")), \
-  ball_b[ball] = b(column("x"), column("y"), column("z")), \
-  ball_c[ball] = c(column("x"), column("y"), column("z")), \
-  ball_r[ball] = column("r"), ball_id[ball] = column("id")) nooutput
-id_last = STATS_max > 0 ? STATS_max : 1
+  x = column("x") - origin_x, y = column("y") - origin_y, \
+  z = column("z") - origin_z, \
+  ball_a[ball] = a(x, y), ball_b[ball] = b(x, y, z), \
+  ball_c[ball] = c(x, y, z), ball_r[ball] = column("r"), \
+  ball_value[ball] = column(value_column)) nooutput
+shade_low = exists("value_low") ? value_low : 0
+shade_high = exists("value_high") ? value_high : STATS_max > 0 ? STATS_max : 1
 
 # as large as fits: the box and a little for balls that lean out of it
 area_a = (right - left)*width
 area_b = (high - low)*height
-fit_a = area_a/(a(base_x, base_y) + 0.06)
-fit_b = area_b/(b(0, base_y, box_top) - b(base_x, 0, 0) + 0.06)
-scale = metre > 0 ? metre : fit_a < fit_b ? fit_a : fit_b
-middle_a = 0.5*a(base_x, base_y)
-middle_b = 0.5*(b(0, base_y, box_top) + b(base_x, 0, 0))
+least(x, y) = x < y ? x : y
+most(x, y) = x > y ? x : y
+a_low = least(ax, 0)*base_x + least(ay, 0)*base_y
+a_high = most(ax, 0)*base_x + most(ay, 0)*base_y
+b_low = least(bx, 0)*base_x + least(by, 0)*base_y
+b_high = most(bx, 0)*base_x + most(by, 0)*base_y + bz*box_top
+fit_a = area_a/(a_high - a_low + 2*lean)
+fit_b = area_b/(b_high - b_low + 2*lean)
+scale = metre > 0 ? metre : least(fit_a, fit_b)
+middle_a = 0.5*(a_low + a_high)
+middle_b = 0.5*(b_low + b_high)
 set view map
 set lmargin at screen left
 set rmargin at screen right
@@ -80,42 +101,50 @@ set bmargin at screen low
 set tmargin at screen high
 set xrange [middle_a-0.5*area_a/scale:middle_a+0.5*area_a/scale]
 # in the middle, but at a given scale on the floor: pictures stand in a row
-lowest = metre > 0 ? b(base_x, 0, 0) - 0.03 : middle_b - 0.5*area_b/scale
+lowest = metre > 0 ? b_low - lean : middle_b - 0.5*area_b/scale
 set yrange [lowest:lowest+area_b/scale]
 set zrange [*:*]
 
-# the box: far edges behind the balls, near ones before them
+# the box: edges of the sides that face the viewer before the balls, the others
+# behind them
 set style arrow 1 nohead back lw thin lc rgb grey
 set style arrow 2 nohead front lw thin lc rgb grey
 unset arrow
+facing_x = cx > 0 ? base_x : 0.         # these two sides do
+facing_y = cy > 0 ? base_y : 0.
 do for [lid=0:1] {
   z = lid*box_top
-  set arrow from 0,b(0,0,z) to a(0,base_y),b(0,base_y,z) as 1
-  set arrow from a(0,base_y),b(0,base_y,z) \
-    to a(base_x,base_y),b(base_x,base_y,z) as 1
-  set arrow from 0,b(0,0,z) to a(base_x,0),b(base_x,0,z) as 2
-  set arrow from a(base_x,0),b(base_x,0,z) \
-    to a(base_x,base_y),b(base_x,base_y,z) as 2
+  do for [side=0:1] {
+    y = side*base_y
+    set arrow from a(0,y),b(0,y,z) to a(base_x,y),b(base_x,y,z) \
+      as (y == facing_y ? 2 : 1)
+    x = side*base_x
+    set arrow from a(x,0),b(x,0,z) to a(x,base_y),b(x,base_y,z) \
+      as (x == facing_x ? 2 : 1)
+  }
 }
-set arrow from 0,0 to 0,b(0,0,box_top) as 1
-set arrow from a(0,base_y),b(0,base_y,0) \
-  to a(0,base_y),b(0,base_y,box_top) as 1
-set arrow from a(base_x,base_y),b(base_x,base_y,0) \
-  to a(base_x,base_y),b(base_x,base_y,box_top) as 1
-set arrow from a(base_x,0),b(base_x,0,0) \
-  to a(base_x,0),b(base_x,0,box_top) as 2
+do for [corner=0:3] {
+  x = (corner & 1)*base_x
+  y = (corner >> 1)*base_y
+  set arrow from a(x,y),b(x,y,0) to a(x,y),b(x,y,box_top) \
+    as (x == facing_x && y == facing_y ? 2 : 1)
+}
 # pngcairo holds facets back until a box is filled: let that be before the edges
 set object 1 rectangle from 0,0 to 0,0 front fs solid noborder
-set label 1 sprintf("%g m", base_x) center front \
-  at a(0.5*base_x,0),b(0.5*base_x,0,0) offset -0.7,-0.8
+outwards = facing_y > 0 ? ay : -ay      # of the edge that is measured
+set label 1 sprintf("%.3g m", base_x) front \
+  at a(0.5*base_x,facing_y),b(0.5*base_x,facing_y,0) \
+  offset outwards > 0 ? 0.3 : -0.7,-0.8
+if (outwards > 0) { set label 1 left } else { set label 1 center }
 set label 2 caption.(t_frame == t_frame ? \
   sprintf("{/:Italic t} = %.4g s", t_frame) : "") front \
   at screen left,high offset 0.5,(strstrt(caption, "\n") > 0 ? 1.4 : 0.4)
 
 # The mesh: unit vectors a, b, c, then diffuse light and highlight. It is finer
 # for fewer balls, and coarser in an .svg, where a facet takes 150 bytes.
-rings = int(sqrt((style_end eq ".svg" ? 30000. : 120000.)/(3*n)))
-rings = rings < 6 ? 6 : rings > 16 ? 16 : rings
+if (!exists("facets")) {facets = style_end eq ".svg" ? 30000. : 120000.}
+rings = int(sqrt(facets/(3*n)))
+rings = rings < 6 ? 6 : rings > 40 ? 40 : rings
 la = -0.40              # to the light
 lb = 0.60
 lc = sqrt(1 - la**2 - lb**2)
@@ -141,13 +170,18 @@ unset print
 array stop[5] = [0x414487, 0x2a788e, 0x22a884, 0x7ad151, 0xfde725]
 set palette defined (0 "#414487", 1 "#2a788e", 2 "#22a884", 3 "#7ad151", \
   4 "#fde725")
-set cbrange [0:1]
+if (exists("value_low")) {
+  set cbrange [value_low:value_high]
+} else {
+  set cbrange [0:1]
+}
 mix(p, q, f) = int((1 - f)*(p & 255) + f*(q & 255))
 between(p, q, f) = mix(p >> 16, q >> 16, f) << 16 | \
   mix(p >> 8, q >> 8, f) << 8 | mix(p, q, f)
 array ball_colour[n]
 do for [ball=1:n] {
-  place = 4.*ball_id[ball]/id_last
+  place = 4.*(ball_value[ball] - shade_low)/(shade_high - shade_low)
+  place = place > 0 ? place : 0.
   after = place < 4 ? int(place) + 1 : 4
   ball_colour[ball] = between(stop[after], stop[after+1], place - after + 1)
 }

@@ -1,9 +1,10 @@
 # The spheres of a bed in their box, coloured by their order at the start,
 # which fills its layers from the bottom.
 #   gnuplot -c plots/bed.gp BED OUT [FRAME]
-# FRAME counts from 0; without it the last frame is drawn.
+# FRAME counts from 0; without it the last frame is drawn. What balls.gp leaves
+# to its caller may be set before (-e), with value_label for the colours.
 set loadpath system("dirname '".ARG0."'")
-columns = "id x y z r"
+columns = "x y z r"
 call "style.gp" "bed.gp BED OUT [FRAME]" ARG2 ARG1
 
 bed = ARG1
@@ -17,10 +18,14 @@ left = 0.02
 right = 0.8
 low = 0.04
 high = 0.93
-box_height = 0
+if (!exists("box_height")) {box_height = 0}
 metre = 0
 caption = ""
-set colorbox user origin 0.82,0.25 size 0.03,0.5
-set cblabel "start height (order)" offset -4.5,0
-set cbtics ("lowest" 0, "highest" 1)
+set colorbox user origin (exists("value_label") ? 0.8 : 0.82),0.25 size 0.03,0.5
+if (exists("value_label")) {
+  set cblabel value_label offset 1,0
+} else {
+  set cblabel "start height (order)" offset -4.5,0
+  set cbtics ("lowest" 0, "highest" 1)
+}
 load "balls.gp"

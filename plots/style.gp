@@ -42,6 +42,7 @@ do for [style_i=3:ARGC] {
 }
 
 if (!exists("width")) { width = 640 }
+if (!exists("magnify")) { magnify = 2 }
 if (!exists("key_rows")) { key_rows = 1 }
 if (!exists("height")) { height = 452 + 28*key_rows }
 font_size = 18
@@ -50,9 +51,9 @@ if (style_end eq ".svg") {
   set terminal svg enhanced size width,height background "white" \
     font sprintf("DejaVu Sans,%d", font_size) linewidth 1 dashlength 1
 } else {
-  set terminal pngcairo enhanced size 2*width,2*height background "white" \
-    font sprintf("DejaVu Sans,%d", font_size) fontscale 1.5 \
-    linewidth 2 pointscale 2 dashlength 0.5
+  set terminal pngcairo enhanced size magnify*width,magnify*height \
+    background "white" font sprintf("DejaVu Sans,%d", font_size) \
+    fontscale 0.75*magnify linewidth magnify pointscale magnify dashlength 0.5
 }
 set output style_out
 

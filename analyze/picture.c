@@ -1,0 +1,370 @@
+#define _POSIX_C_SOURCE 200809L
+#include "picture.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_math.h>
+#include "neighbors.h"
+
+const char *const picture_colors[] = {"height",   "speed", "radius",
+                                      "contacts", "id",    NULL};
+
+static char *joined(const char *a, const char *b, const char *c) {
+  const size_t size = strlen(a) + strlen(b) + strlen(c) + 1;
+  char *text = malloc(size);
+  if (!text)
+    die(EXIT_IO, "out of memory");
+  snprintf(text, size, "%s%s%s", a, b, c);
+  return text;
+}
+
+bool ends_in(const char *name, const char *ending) {
+  const size_t n = strlen(name), e = strlen(ending);
+  return n > e && !strcmp(name + n - e, ending);
+}
+
+/* The scratch directory. */
+
+static char *scratch; /* for atexit */
+
+static void remove_scratch(void) {
+  DIR *directory = opendir(scratch);
+  if (!directory)
+    return;
+  for (struct dirent *e; (e = readdir(directory));)
+    if (strcmp(e->d_name, ".") && strcmp(e->d_name, ".."))
+      unlinkat(dirfd(directory), e->d_name, 0);
+  closedir(directory);
+  rmdir(scratch);
+}
+
+void picture_begin(struct picture *p, const char *output) {
+  if (!(p->view.at[1] >= 0 && p->view.at[1] <= 90) ||
+      !(fabs(p->view.at[0]) <= 360))
+    die(EXIT_USAGE, "--view: expected a turn from -360 to 360 and an angle to "
+                    "the vertical from 0 to 90");
+  if (!output && isatty(STDOUT_FILENO))
+    die(EXIT_USAGE, "expected --output, or a file or pipe for the picture");
+  p->file.stream = stdout;
+  if (output)
+    output_open(&p->file, output);
+  const char *place = getenv("TMPDIR");
+  p->scratch = scratch =
+      joined(place && *place ? place : "/tmp", "/dem-XXXXXX", "");
+  if (!mkdtemp(scratch))
+    die(EXIT_IO, "%s: %s", scratch, strerror(errno));
+  atexit(remove_scratch);
+}
+
+char *picture_path(const struct picture *p, const char *name) {
+  return joined(p->scratch, "/", name);
+}
+
+char *picture_script(const char *name) {
+  static const char from_bin[] = "/../share/dem/plots/";
+  const char *set = getenv("DEM_PLOTS");
+  if (set && *set)
+    return joined(set, "/", name);
+  char program[4096];
+  const ssize_t length =
+      readlink("/proc/self/exe", program, sizeof program - 1);
+  if (length > 0) {
+    program[length] = 0;
+    *strrchr(program, '/') = 0;
+    char *installed = joined(program, from_bin, name);
+    if (access(installed, R_OK) == 0)
+      return installed;
+    free(installed);
+  }
+  char *built = joined(PLOTS_SOURCE, "/", name);
+  if (access(built, R_OK) != 0)
+    die(EXIT_IO,
+        "%s: not found, nor in share/dem/plots beside the program: expected "
+        "its directory in DEM_PLOTS",
+        built);
+  return built;
+}
+
+/* What is drawn. */
+
+static void check_memory(int status) {
+  if (status != GSL_SUCCESS)
+    die(EXIT_IO, "%s", gsl_strerror(status));
+}
+
+/* One number for each sphere. */
+static double *colour_values(const struct picture *p, const struct bed *b) {
+  double *value = calloc(b->n + 1, sizeof *value);
+  if (!value)
+    die(EXIT_IO, "out of memory");
+  if (!strcmp(p->color, "contacts")) {
+    struct neighbors near = {0};
+    check_memory(neighbors_find(&near, b->n, b->x, 3, b->r, 0));
+    for (size_t k = 0; k < near.count; k++) {
+      value[near.i[k]]++;
+      value[near.j[k]]++;
+    }
+    neighbors_free(&near);
+    return value;
+  }
+  for (size_t i = 0; i < b->n; i++) {
+    const double *v = b->v + 3 * i;
+    value[i] = !strcmp(p->color, "height")  ? b->x[3 * i + 2]
+               : !strcmp(p->color, "speed") ? gsl_hypot3(v[0], v[1], v[2])
+               : !strcmp(p->color, "id")    ? (double)b->id[i]
+                                            : b->r[i];
+  }
+  return value;
+}
+
+/* Walls along the axes bound the box. */
+static void take_walls(struct picture *p, const struct bed_header *h) {
+  memset(p->fixed, 0, sizeof p->fixed);
+  for (size_t k = 0; k < h->count; k++) {
+    double w[6];
+    if (strcmp(h->at[k].name, "wall") ||
+        sscanf(h->at[k].value,
+               "%lf%*[ ,]%lf%*[ ,]%lf%*[ ,]%lf%*[ ,]%lf%*[ ,]"
+               "%lf",
+               &w[0], &w[1], &w[2], &w[3], &w[4], &w[5]) != 6)
+      continue;
+    for (int a = 0; a < 3; a++) {
+      const double n = w[3 + a];
+      if (n == 0 || w[3 + (a + 1) % 3] != 0 || w[3 + (a + 2) % 3] != 0 ||
+          !isfinite(w[a]))
+        continue;
+      p->box[2 * a + (n > 0)] = w[a];
+      p->fixed[2 * a + (n > 0)] = true;
+    }
+  }
+}
+
+static void widen(double *low, double *high, double from, double to,
+                  bool first) {
+  if (low && (first || from < *low))
+    *low = from;
+  if (high && (first || to > *high))
+    *high = to;
+}
+
+void picture_measure(struct picture *p, const struct bed *b,
+                     const struct bed_header *h) {
+  take_walls(p, h);
+  double *value = colour_values(p, b);
+  for (size_t i = 0; i < b->n; i++, p->measured++) {
+    const bool first = !p->measured;
+    for (int a = 0; a < 3; a++)
+      widen(p->fixed[2 * a] ? NULL : &p->box[2 * a],
+            p->fixed[2 * a + 1] ? NULL : &p->box[2 * a + 1],
+            b->x[3 * i + a] - b->r[i], b->x[3 * i + a] + b->r[i], first);
+    widen(&p->low, &p->high, value[i], value[i], first);
+  }
+  free(value);
+}
+
+/* The viewer's axes, as plots/balls.gp has them: rightwards, upwards, to the
+   viewer. */
+static void view_axes(const struct picture *p, double axes[3][3]) {
+  const double turn = p->view.at[0] * M_PI / 180,
+               tilt = p->view.at[1] * M_PI / 180;
+  const double a[3][3] = {
+      {cos(turn), sin(turn), 0},
+      {-cos(tilt) * sin(turn), cos(tilt) * cos(turn), sin(tilt)},
+      {sin(tilt) * sin(turn), -sin(tilt) * cos(turn), cos(tilt)}};
+  memcpy(axes, a, sizeof a);
+}
+
+/* Which spheres can be seen: those that are foremost in a pixel of a coarse
+   picture. Of a large bed that leaves a few thousand. */
+enum { PIXELS = 1000 };
+
+static bool *find_seen(const struct picture *p, const struct bed *b) {
+  double axes[3][3], low[2] = {0}, high[2] = {0};
+  bool *seen = calloc(b->n + 1, sizeof *seen);
+  double *place = malloc((3 * b->n + 1) * sizeof *place);
+  size_t *front = malloc(PIXELS * PIXELS * sizeof *front);
+  double *depth = malloc(PIXELS * PIXELS * sizeof *depth);
+  if (!seen || !place || !front || !depth)
+    die(EXIT_IO, "out of memory");
+  view_axes(p, axes);
+  for (size_t i = 0; i < b->n; i++)
+    for (int k = 0; k < 3; k++) {
+      const double *x = b->x + 3 * i, *a = axes[k];
+      const double at = a[0] * x[0] + a[1] * x[1] + a[2] * x[2];
+      place[3 * i + k] = at;
+      if (k < 2)
+        widen(&low[k], &high[k], at - b->r[i], at + b->r[i], i == 0);
+    }
+  const double size =
+      fmax(fmax(high[0] - low[0], high[1] - low[1]), 1e-300) / PIXELS;
+  for (size_t k = 0; k < PIXELS * PIXELS; k++)
+    depth[k] = -HUGE_VAL;
+  for (size_t i = 0; i < b->n; i++) {
+    const double r = fmax(b->r[i] / size, 0.75),
+                 x = (place[3 * i] - low[0]) / size,
+                 y = (place[3 * i + 1] - low[1]) / size;
+    const int x0 = (int)fmax(0, ceil(x - r - 0.5)),
+              x1 = (int)fmin(PIXELS - 1, floor(x + r - 0.5)),
+              y0 = (int)fmax(0, ceil(y - r - 0.5)),
+              y1 = (int)fmin(PIXELS - 1, floor(y + r - 0.5));
+    for (int v = y0; v <= y1; v++)
+      for (int u = x0; u <= x1; u++) {
+        const double du = u + 0.5 - x, dv = v + 0.5 - y,
+                     q = r * r - du * du - dv * dv;
+        const size_t k = (size_t)v * PIXELS + (size_t)u;
+        const double z = q > 0 ? place[3 * i + 2] / size + sqrt(q) : -HUGE_VAL;
+        if (z > depth[k]) {
+          depth[k] = z;
+          front[k] = i;
+        }
+      }
+  }
+  for (size_t k = 0; k < PIXELS * PIXELS; k++)
+    if (depth[k] > -HUGE_VAL)
+      seen[front[k]] = true;
+  free(place);
+  free(front);
+  free(depth);
+  return seen;
+}
+
+void picture_write(const struct picture *p, const struct bed *b,
+                   const char *name) {
+  char *path = picture_path(p, name);
+  FILE *out = fopen(path, "w");
+  if (!out)
+    die(EXIT_IO, "%s: %s", path, strerror(errno));
+  double *value = colour_values(p, b);
+  bool *seen = find_seen(p, b);
+  fprintf(out, "# t=%.17g\nx\ty\tz\tr\tvalue\n", b->t);
+  for (size_t i = 0; i < b->n; i++)
+    if (seen[i])
+      fprintf(out, "%.9g\t%.9g\t%.9g\t%.9g\t%.9g\n", b->x[3 * i],
+              b->x[3 * i + 1], b->x[3 * i + 2], b->r[i], value[i]);
+  if (ferror(out) | fclose(out))
+    die(EXIT_IO, "%s: %s", path, strerror(errno));
+  free(seen);
+  free(value);
+  free(path);
+}
+
+/* Programs that draw. */
+
+/* The first line of what a program said that says something. */
+static void first_line(FILE *said, char *text, size_t size) {
+  rewind(said);
+  text[0] = 0;
+  while (fgets(text, (int)size, said)) {
+    text[strcspn(text, "\n")] = 0;
+    if (strspn(text, " \t^") != strlen(text))
+      return;
+    text[0] = 0;
+  }
+}
+
+void picture_run(const struct picture *p, const char *package,
+                 const char *const argv[]) {
+  FILE *said = tmpfile();
+  if (!said)
+    die(EXIT_IO, "%s: %s", p->scratch, strerror(errno));
+  fflush(stdout);
+  /* an interrupt ends it, and then us, with nothing left in scratch */
+  struct sigaction ignore = {.sa_handler = SIG_IGN}, interrupt, quit;
+  sigaction(SIGINT, &ignore, &interrupt);
+  sigaction(SIGQUIT, &ignore, &quit);
+  const pid_t child = fork();
+  if (child == 0) {
+    sigaction(SIGINT, &interrupt, NULL);
+    sigaction(SIGQUIT, &quit, NULL);
+    signal(SIGPIPE, SIG_DFL);
+    const int none = open("/dev/null", O_RDWR);
+    if (none < 0 || dup2(none, STDIN_FILENO) < 0 ||
+        dup2(fileno(said), STDOUT_FILENO) < 0 ||
+        dup2(fileno(said), STDERR_FILENO) < 0)
+      _exit(126);
+    execvp(argv[0], (char *const *)argv);
+    _exit(errno == ENOENT ? 127 : 126);
+  }
+  int status = 0;
+  while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR)
+    ;
+  sigaction(SIGINT, &interrupt, NULL);
+  sigaction(SIGQUIT, &quit, NULL);
+  char text[200];
+  first_line(said, text, sizeof text);
+  fclose(said);
+  if (child < 0)
+    die(EXIT_IO, "%s: %s", argv[0], strerror(errno));
+  if (WIFSIGNALED(status))
+    die(EXIT_IO, "%s: ended by signal %d", argv[0], WTERMSIG(status));
+  if (WEXITSTATUS(status) == 127)
+    die(EXIT_IO, "%s: not found: expected it to be installed (Debian: %s)",
+        argv[0], package);
+  if (status != 0)
+    die(EXIT_IO, "%s: %s", argv[0], *text ? text : "failed");
+}
+
+void picture_draw(const struct picture *p, const char *name,
+                  const char *output) {
+  static const char *const labels[] = {"height (m)", "speed (m/s)",
+                                       "radius (m)", "touching spheres", "id"};
+  int c = 0;
+  while (strcmp(picture_colors[c], p->color))
+    c++;
+  const double *b = p->box;
+  double size[3], low = p->low, high = p->high;
+  if (c == 1 || c == 3)
+    low = 0;
+  for (int a = 0; a < 3; a++)
+    size[a] = fmax(b[2 * a + 1] - b[2 * a], 1e-9);
+  if (!(high > low) && c >= 3) {
+    high = low + 1;
+  } else if (!(high > low)) { /* one value: the middle of the scale */
+    const double half = low != 0 ? fabs(low) / 2 : 0.5;
+    low -= half;
+    high += half;
+  }
+  char set[600];
+  snprintf(set, sizeof set,
+           "turn=%.9g; tilt=%.9g; origin_x=%.9g; origin_y=%.9g; "
+           "origin_z=%.9g; base_x=%.9g; base_y=%.9g; box_height=%.9g; "
+           "lean=%.9g; value_column='value'; value_low=%.9g; value_high=%.9g; "
+           "value_label='%s'; facets=%zu.; magnify=%d",
+           p->view.at[0], p->view.at[1], b[0], b[2], b[4], size[0], size[1],
+           size[2], 0.03 * fmax(size[0], size[1]), low, high, labels[c],
+           p->facets, p->half_size ? 1 : 2);
+  char *script = picture_script("bed.gp"), *data = picture_path(p, name);
+  const char *const argv[] = {"gnuplot", "-e", set,    "-c",
+                              script,    data, output, NULL};
+  picture_run(p, "gnuplot-nox", argv);
+  if (access(output, R_OK) != 0)
+    die(EXIT_IO, "gnuplot: no picture came of it");
+  free(script);
+  free(data);
+}
+
+void picture_deliver(struct picture *p, const char *path) {
+  FILE *in = fopen(path, "rb");
+  if (!in)
+    die(EXIT_IO, "%s: %s", path, strerror(errno));
+  char part[1 << 14];
+  for (size_t n; (n = fread(part, 1, sizeof part, in)) > 0;)
+    if (fwrite(part, 1, n, p->file.stream) != n)
+      break; /* what follows finds the error */
+  const bool failed = ferror(in);
+  fclose(in);
+  if (failed)
+    die(EXIT_IO, "%s: read error", path);
+  if (p->file.path)
+    output_commit(&p->file);
+  else
+    finish_output();
+}

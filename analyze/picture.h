@@ -1,0 +1,69 @@
+/* Pictures of beds by gnuplot (plots/bed.gp): what draw and movie share. All
+   exit with one line on an error; the scratch directory goes when the program
+   does. */
+#ifndef PICTURE_H
+#define PICTURE_H
+
+#include "bed_io.h"
+#include "files.h"
+#include "options.h"
+
+struct picture {
+  const char *color;       /* one of picture_colors */
+  struct option_list view; /* turn around the vertical, angle to it (degrees) */
+  size_t facets;           /* of all balls together, about */
+  bool half_size;          /* 640 x 480 pixels */
+  char *scratch;           /* directory */
+  struct output_file file; /* what is made, or standard output */
+  double box[6];           /* x0 x1 y0 y1 z0 z1 (m), grown by picture_measure */
+  bool fixed[6];           /* a wall of the scene */
+  double low, high;        /* of what the colours show */
+  size_t measured;
+};
+
+extern const char *const picture_colors[];
+
+/* clang-format off */
+#define PICTURE_OPTIONS(p)                                                     \
+  {.name = "color", .type = OPTION_TEXT, .value = &(p).color,                  \
+   .choices = picture_colors, .help = "what the colours show"},                \
+  {.name = "view", .type = OPTION_LIST, .value = &(p).view, .least = 2,        \
+   .most = 2, .unit = "degrees",                                               \
+   .help = "turn around the vertical, angle to it"}
+/* clang-format on */
+
+/* Checks the options, makes the scratch directory and opens what is to be made:
+   output, whole or not at all, or standard output for NULL. */
+void picture_begin(struct picture *p, const char *output);
+
+/* A path in the scratch directory; the caller frees it. */
+char *picture_path(const struct picture *p, const char *name);
+
+/* Takes a frame into the ranges of box and colours, and writes it, as far as
+   it can be seen, to a file of the scratch directory. Frames of one number are
+   written over. */
+void picture_measure(struct picture *p, const struct bed *b,
+                     const struct bed_header *h);
+void picture_write(const struct picture *p, const struct bed *b,
+                   const char *name);
+
+/* Draws what picture_write wrote; output ends in .png or .svg. */
+void picture_draw(const struct picture *p, const char *name,
+                  const char *output);
+
+/* Runs a program of the search path and waits; a failure is an error with the
+   first line of what it said. package is what Debian calls it. */
+void picture_run(const struct picture *p, const char *package,
+                 const char *const argv[]);
+
+/* The path of one of our gnuplot scripts: in $DEM_PLOTS, in ../share/dem/plots
+   beside the program's directory, or where the program was built. */
+char *picture_script(const char *name);
+
+/* Does a name end so? */
+bool ends_in(const char *name, const char *ending);
+
+/* Copies a finished file to where it is wanted. */
+void picture_deliver(struct picture *p, const char *path);
+
+#endif

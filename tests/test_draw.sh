@@ -1,0 +1,186 @@
+#!/bin/bash
+# Pictures and animations of beds: what is on them, where the scripts are found,
+# and what is said when something is missing. Run from the root of the
+# repository; B is the directory of the programs.
+set -u
+B=${B:-build}
+passed=0 failed=0
+T=$(mktemp -d) || exit 1
+trap 'rm -rf "$T"' EXIT
+export LC_ALL=C
+export TMPDIR=$T/scratch
+unset DEM_PLOTS
+mkdir "$TMPDIR"
+
+check() { # NAME CONDITION...
+  local name=$1
+  shift
+  if "$@"; then
+    passed=$((passed + 1))
+  else
+    failed=$((failed + 1))
+    echo "failed: $name" >&2
+  fi
+}
+
+# with the variable "environment", if it is set
+refuse() { # NAME STATUS PATTERN ARGUMENT...: one line, no picture
+  local name=$1 want=$2 pattern=$3
+  timeout 60 env ${environment:-} "$B/analyze" "${@:4}" >"$T/out" \
+    2>"$T/err" </dev/null
+  local status=$?
+  check "$name: exit status $status" test $status = "$want"
+  check "$name: $(head -n 3 "$T/err")" test "$(wc -l <"$T/err")" = 1 -a \
+    "$(grep -Ec "^analyze: $pattern" "$T/err")" = 1 -a ! -s "$T/out"
+}
+
+first() { # COUNT FILE: its first bytes
+  head -c "$1" "$2" | od -An -c | tr -d ' \n'
+}
+
+# --- without anything to draw with --------------------------------------------
+bed() { # ROWS: in the unit cube
+  printf '# format=bed-1\n# t=0\n'
+  printf '# wall=%s\n' '0 0 0 -1 0 0' '1 0 0 1 0 0' '0 0 0 0 -1 0' \
+    '0 1 0 0 1 0' '0 0 0 0 0 -1' '0 0 1 0 0 1'
+  printf 'id\tx\ty\tz\tr\n'"$1"'# status=ok\n'
+}
+bed '0\t0.5\t0.5\t0.5\t0.4\n' >"$T/one"
+"$B/settle" --count 120 --base 0.7,0.7 --model basic --time 0.4 --frames 3 \
+  >"$T/bed"
+refuse 'an unknown ending' 2 '--output .*x.jpg: expected .*.png or .svg' \
+  draw --output "$T/x.jpg" "$T/one"
+refuse 'an unknown ending' 2 '--output .*x.avi: expected .*.gif, .mp4' \
+  movie --output "$T/x.avi" "$T/one"
+refuse 'no such frame' 2 '--frame 3: there are frames 0 to 2' \
+  draw --frame 3 --output "$T/x.png" "$T/bed"
+refuse 'half a frame' 2 '--frame 0.5: expected a whole number' \
+  draw --frame 0.5 --output "$T/x.png" "$T/bed"
+refuse 'from below' 2 '--view: expected' draw --view 30,95 --output "$T/x.png" \
+  "$T/bed"
+refuse 'no such color' 2 '--color mud: expected one of height' \
+  draw --color mud --output "$T/x.png" "$T/bed"
+refuse 'no such directory' 1 "$T/none/x.png: No such" \
+  draw --output "$T/none/x.png" "$T/one"
+head -n 60 "$T/bed" >"$T/cut"
+refuse 'a bed cut short' 3 "$T/cut:[0-9]*: .*cut short" \
+  draw --output "$T/x.png" "$T/cut"
+mkdir "$T/nothing"
+environment=PATH=$T/nothing refuse 'no gnuplot' 1 'gnuplot: not found.*gnuplot-nox' \
+  draw --output "$T/x.png" "$T/one"
+environment=PATH=$T/nothing refuse 'no ffmpeg' 1 'ffmpeg: not found' \
+  movie --output "$T/x.mp4" "$T/one"
+check 'no picture came of that' test -z "$(ls "$T" | grep '^x')"
+check 'nothing is left in scratch' test -z "$(ls "$TMPDIR")"
+
+if ! command -v gnuplot >/dev/null; then
+  echo 'skipped: pictures (gnuplot is not installed)'
+  echo "$passed passed, $failed failed"
+  exit $((failed > 0))
+fi
+
+# --- pictures -----------------------------------------------------------------
+pixels() { # PNG: x, y and rgb of each pixel, by gnuplot's reader
+  gnuplot -e "set table '$T/table'; plot '$1' binary filetype=png \
+    with rgbimage" 2>/dev/null
+  awk '/^ *[0-9]/ {print $1, $2, $3, $4, $5}' "$T/table"
+}
+# One ball of radius 0.4 in the unit cube, seen from turn 30 and tilt 72: the
+# picture's scale is what fits, its disc's area follows. The rim may be off by a
+# pixel, and three edges of the box, two pixels wide, may cross it.
+"$B/analyze" draw --output "$T/one.png" "$T/one"
+check 'a PNG' test "$(first 4 "$T/one.png")" = '211PNG'
+pixels "$T/one.png" | awk '
+  $1 < 0.79 * 1280 {
+    low = $3 < $4 ? $3 : $4; low = low < $5 ? low : $5
+    high = $3 > $4 ? $3 : $4; high = high > $5 ? high : $5
+    if (high - low > 20) {n++; x += $1; y += $2}}
+  END {
+    pi = 4 * atan2(1, 1); turn = pi / 6; tilt = 72 * pi / 180
+    wide = cos(turn) + sin(turn) + 0.06
+    tall = cos(tilt) * wide - 0.06 * cos(tilt) + sin(tilt) + 0.06
+    scale = 0.78 * 1280 / wide
+    if (0.89 * 960 / tall < scale) scale = 0.89 * 960 / tall
+    r = 0.4 * scale; want = pi * r * r; d = n - want
+    tol = 2 * pi * r + 3 * 2 * 2 * r
+    if (!(d < tol && -d < tol)) bad = 1
+    dx = x / n - 0.41 * 1280; dy = y / n - (0.04 + 0.93) / 2 * 960
+    if (!(dx * dx + dy * dy < 9)) bad = 1
+    if (bad) print n, want, tol, dx, dy > "/dev/stderr"
+    exit bad || !n}'
+check 'one ball: its area and place' test $? = 0
+"$B/analyze" draw "$T/one" >"$T/piped.png"
+check 'a picture to standard output' cmp -s "$T/one.png" "$T/piped.png"
+
+# What is left out as hidden is not missed: drawn with all its spheres, by the
+# script itself, a bed looks the same but for pixels at rims.
+"$B/analyze" draw --output "$T/bed.png" "$T/bed"
+awk '/^# t=/ {n = 0} /^# (t|base)/ {print; next}
+  /^[0-9]/ {row[++n] = $0 "\t" $4}
+  END {print "id\tx\ty\tz\tr\tm\tvx\tvy\tvz\tvalue"
+    for (k = 1; k <= n; k++) print row[k]}' FS='\t' "$T/bed" >"$T/whole"
+range=$(awk -F '\t' '/^[0-9]/ {z = $4 + 0
+  if (!n++ || z < low) low = z; if (n == 1 || z > high) high = z
+  if ($4 + $5 > top) top = $4 + $5}
+  END {printf "value_low=%.9g; value_high=%.9g; box_height=%.9g", low, high,
+    top}' "$T/whole")
+gnuplot -e "$range; lean=0.03*0.7; value_column='value'; value_label='height'; \
+  origin_x=0; origin_y=0; origin_z=0; base_x=0.7; base_y=0.7" \
+  -c plots/bed.gp "$T/whole" "$T/whole.png" >"$T/log" 2>&1
+paste -d ' ' <(pixels "$T/bed.png") <(pixels "$T/whole.png") | awk '
+  $1 < 0.79 * 1280 {n++; d = $3 - $8; e = $4 - $9; f = $5 - $10
+    bad += d * d + e * e + f * f > 60 * 60}
+  END {print bad, n; exit !(n > 900000 && bad < 0.002 * n)}' >"$T/log"
+check "hidden spheres are not missed: $(cat "$T/log")" test $? = 0
+
+# the same spheres in another format: the same bytes
+awk -F '\t' -v OFS=, '/^# wall/ {walls = walls $0 "\n"} /^# t=/ {n = 0; t = $0}
+  /^[0-9]/ {row[++n] = $1 "," $2 "," $3 "," $4 "," $5}
+  END {printf "%s%s\nid,x,y,z,r\n", walls, t
+    for (k = 1; k <= n; k++) print row[k]}' "$T/bed" >"$T/table.csv"
+"$B/analyze" draw <"$T/table.csv" >"$T/table.png"
+check 'a table, a pipe: the same bytes' cmp -s "$T/bed.png" "$T/table.png"
+"$B/analyze" draw --frame 2 --output "$T/frame.png" "$T/bed"
+check 'the last frame is the default' cmp -s "$T/bed.png" "$T/frame.png"
+"$B/analyze" draw --frame 0 --output "$T/frame.png" "$T/bed"
+check 'the first one is another' test -s "$T/frame.png"
+check 'the first one is another' eval '! cmp -s "$T/bed.png" "$T/frame.png"'
+"$B/analyze" draw --view 200,40 --color contacts --output "$T/x.svg" "$T/bed"
+check 'an SVG' test "$(grep -c '<svg' "$T/x.svg")" = 1
+check 'with its label' grep -q 'touching spheres' "$T/x.svg"
+
+# --- animations ---------------------------------------------------------------
+"$B/analyze" movie --rate 10 "$T/bed" >"$T/x.gif"
+check 'a GIF of 640 x 480' test \
+  "$(head -c 10 "$T/x.gif" | od -An -tx1 | tr -d ' \n')" = 4749463839618002e001
+check 'of three frames' test "$(od -An -v -tx1 "$T/x.gif" | tr -d ' \n' |
+  grep -o '21f904..0a00' | wc -l)" = 3
+if command -v ffmpeg >/dev/null && command -v ffprobe >/dev/null; then
+  "$B/analyze" movie --rate 5 --output "$T/x.mp4" "$T/bed"
+  check 'an mp4 of three frames' test "$(ffprobe -v error -count_frames \
+    -show_entries stream=width,height,r_frame_rate,nb_read_frames -of csv=p=0 \
+    "$T/x.mp4")" = 1280,960,5/1,3
+else
+  echo 'skipped: mp4 (ffmpeg is not installed)'
+fi
+
+# --- where the scripts are ----------------------------------------------------
+mkdir -p "$T/prefix/bin" "$T/prefix/share/dem/plots" "$T/mine"
+cp "$B/analyze" "$T/prefix/bin"
+echo 'print "the installed one"; exit status 3' \
+  >"$T/prefix/share/dem/plots/bed.gp"
+echo 'print "mine"; exit status 3' >"$T/mine/bed.gp"
+real=$B
+B=$T/prefix/bin
+refuse 'beside the installed program' 1 'gnuplot: the installed one' \
+  draw --output "$T/y.png" "$T/one"
+environment=DEM_PLOTS=$T/mine refuse 'DEM_PLOTS' 1 'gnuplot: mine' \
+  draw --output "$T/y.png" "$T/one"
+B=$real
+check 'no picture came of that' test ! -e "$T/y.png"
+timeout 60 "$B/analyze" draw "$T/one" >/dev/full 2>"$T/err"
+check 'a full disk' test $? = 1 -a "$(grep -c 'No space' "$T/err")" = 1
+check 'nothing is left in scratch' test -z "$(ls "$TMPDIR")"
+
+echo "$passed passed, $failed failed"
+((failed == 0))
