@@ -91,8 +91,8 @@ static double arc(const struct region *g, int n, const double s[2],
   const double chord = sqrt(chord_x * chord_x + chord_y * chord_y);
   const double end = chord / (2 * g->rho + twice);
   const double m[2] = {g->rho * sum_x / twice, g->rho * sum_y / twice};
-  /* poles at t = i: keep them far away as well */
-  if (end > 0.04)
+  /* poles at t = i: keep them as far away, 10 half-lengths */
+  if (end > 0.1)
     return arc(g, n, s, m) + arc(g, n, m, e);
   double sum = 0;
   for (int k = 0; k < n; k++) {

@@ -125,6 +125,24 @@ static void test_cell(gsl_rng *rng) {
     random_cells(rng, &q, h, plate, 100);
     random_cells(rng, &q, h, rod, 100);
   }
+  /* at a pole, where a circle small against the cell turns a long way in it */
+  for (int m = 0; m < 3000; m++) {
+    const double h = 0.1 * pow(2, -3 * gsl_rng_uniform(rng));
+    double cell[6];
+    for (int k = 0; k < 2; k++) {
+      cell[2 * k] = -h * gsl_rng_uniform(rng);
+      cell[2 * k + 1] = cell[2 * k] + h;
+    }
+    cell[4] = 1 - h * h / 2 * gsl_rng_uniform(rng);
+    cell[5] = cell[4] + h;
+    static const double origin[3];
+    const double want = (double)oracle(1, cell);
+    /* of what is there, unlike in cell_case: 1e-16 of it by the rule, a plane
+       that is off by an ulp, the oracle's own */
+    const double flat = h * h * DBL_EPSILON;
+    CHECK_CLOSE(ball_cell_volume(&q, origin, 1, cell), want,
+                1e-14 * want + flat + 16 * (double)LDBL_EPSILON);
+  }
   /* cells that meet the sphere in a point or along an edge only, and at the
      poles, with faces through the centre */
   static const double c[3] = {0, 0, 0};
