@@ -71,10 +71,13 @@ struct ascent {
   bool rising;
 };
 
-/* What is left of the contact adds to the way up, so the bound holds. */
+/* What is left of the contact adds to the way up, so the bound holds. A sphere
+   that is thrown up beyond all measure has no apex worth waiting for. */
 static double to_apex(const double y[], const double dydt[], void *params) {
   (void)dydt;
   struct ascent *a = params;
+  if (y[0] > 100 * height)
+    return 0;
   if (y[1] <= 0)
     return a->rising ? 0 : GSL_POSINF;
   a->rising = true;

@@ -9,20 +9,22 @@
 #include "shared_options.h"
 #include "version.h"
 
-/* clang-format off: one a line */
+/* clang-format off */
 static const struct precision_scene *const scenes[] = {
-    &scene_bounce,       &scene_collision,   &scene_restitution,
-    &scene_toda_open,    &scene_toda_closed, &scene_rolling,
-    &scene_transition,   &scene_exponential, &scene_spring,
+    &scene_bounce,
+    &scene_collision,
+    &scene_restitution,
+    &scene_toda_open,
+    &scene_toda_closed,
+    &scene_rolling,
+    &scene_transition,
+    &scene_exponential,
+    &scene_spring,
     &scene_walton_braun,
 };
 /* clang-format on */
 
 enum { SCENES = sizeof scenes / sizeof *scenes, LADDER = 16 };
-
-/* A run is repeated until so much CPU time is spent (s); the shortest counts,
-   as others use the machine, too. */
-static const double timed = 0.02;
 
 struct ladder {
   size_t count;
@@ -64,7 +66,8 @@ static void print_header(const struct option_spec *options,
 }
 
 static void print_row(const struct precision_scene *s,
-                      const struct precision_case *c, const void *reference) {
+                      const struct precision_case *c, const void *reference,
+                      double timed) {
   struct precision_result r;
   const double start = measure_clock();
   double best = INFINITY, end = start;
@@ -93,7 +96,8 @@ static void print_row(const struct precision_scene *s,
 }
 
 int main(int argc, char **argv) {
-  const struct precision_scene *s = argc > 1 ? find_scene(argv[1]) : NULL;
+  const char *scene = argc > 1 ? argv[1] : NULL;
+  const struct precision_scene *s = find_scene(scene);
   const struct scene standard = scene_default();
   struct integrate_options integrate = {
       .method = "merson", .control = "standard", .hinit = 1e-3};
@@ -104,7 +108,7 @@ int main(int argc, char **argv) {
                              .seed = 1};
   if (s && s->defaults)
     s->defaults(&c);
-  double travel = 0;
+  double travel = 0, timed = 0.02;
   struct ladder tolerances = {0}, steps = {0};
   /* clang-format off */
   struct option_spec options[] = {
@@ -128,6 +132,8 @@ int main(int argc, char **argv) {
       {.name = "step-rung", .type = OPTION_LIST, .least = 1, .most = 1,
        .unit = "s, up to 16 times", .help = "a fixed step to run with",
        .each = add_rung, .context = &steps},
+      NUMBER("timed", &timed, 0, OPTION_MANY, "s",
+             "repeat a run for so long; the shortest counts"),
       INTEGRATION_OPTIONS(integrate, travel),
       {0}};
   /* clang-format on */
@@ -139,10 +145,11 @@ int main(int argc, char **argv) {
       .example = "precision collision --method rk8pd --rung 1e-4 --rung 1e-8",
       .options = options};
   const int operand = options_parse(&program, argc, argv);
-  if (operand != argc - 1 || !(s = find_scene(argv[operand]))) {
+  /* first, since its defaults were set before the options were read */
+  if (operand != argc - 1 || !s || argv[operand] != scene) {
     for (size_t i = 0; i < SCENES; i++)
       fprintf(stderr, "%-12s %s\n", scenes[i]->name, scenes[i]->summary);
-    die(EXIT_USAGE, "expected one of these scenes");
+    die(EXIT_USAGE, "expected one of these scenes, before the options");
   }
   c.travel = travel / c.law.kappa;
   integrate_defaults(&integrate);
@@ -160,11 +167,11 @@ int main(int argc, char **argv) {
   for (size_t k = 0; k < tolerances.count; k++) {
     integrate.tol = tolerances.at[k];
     integrate.step = 0;
-    print_row(s, &c, reference);
+    print_row(s, &c, reference, timed);
   }
   for (size_t k = 0; k < steps.count; k++) {
     integrate.step = steps.at[k];
-    print_row(s, &c, reference);
+    print_row(s, &c, reference, timed);
   }
   free(reference);
   finish_output();

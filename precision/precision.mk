@@ -3,13 +3,13 @@
 # under build/data/precision, so that a stopped make goes on where it was; a
 # set's runs make one chart for each of its errors and each kind of cost.
 # QUICK=1: fewer rungs, sets and charts, in directories of their own. Other .mk
-# files add what they chart by a line `precision: FILES` of their own.
+# files add what they chart by a line `precision: FILES`.
 PRECISION_DATA := $(B)/$(if $(QUICK),quick/)data/precision
 PRECISION_OUT := $(B)/$(if $(QUICK),quick/)figures
 
 # The standard control with its norm by unknown, the same for all, so that
 # steppers are compared and not controls.
-PRECISION_RUN := $(B)/precision
+PRECISION_TIMED := $(if $(QUICK),--timed 0)
 PAIRS := merson dopri5 rkf45 rkck rk8pd
 ADAPTIVE := $(PAIRS) rkc msbdf
 FIXED := $(PAIRS) rkc verlet
@@ -23,7 +23,7 @@ else
 RUNGS := 1e-3 1e-5 1e-7
 RUNGS_rkc := $(RUNGS)
 RUNGS_msbdf := $(RUNGS)
-STEPS_HALVED := 4
+STEPS_HALVED := 6
 endif
 
 # Sets: what precision is told, the first of verlet's steps, which is halved so
@@ -151,7 +151,8 @@ methods = $(or $(METHODS_$(1)),$(ADAPTIVE) verlet)
 define precision_run
 $(PRECISION_DATA)/$(1)/$(2).tsv: $(B)/precision
 	@mkdir -p $$(@D)
-	$(PRECISION_RUN) $(SET_$(1)) --method $(2) $$(call ladder,$(1),$(2)) > $$@
+	$(B)/precision $(SET_$(1)) --method $(2) $$(call ladder,$(1),$(2)) \
+	  $(PRECISION_TIMED) > $$@
 endef
 # $(call precision_set,SET): its runs as blocks of one file
 define precision_set
@@ -192,5 +193,6 @@ $(PRECISION_OUT)/precision-orders.md: precision/orders.awk precision/precision.m
 	@mkdir -p $(@D)
 	awk -f $(filter %.awk %.tsv,$^) > $@
 
-precision: $(PRECISION_FIGURES) ## charts of accuracy against work
-.PHONY: precision
+precision: precision-scenes ## charts of accuracy against work
+precision-scenes: $(PRECISION_FIGURES)
+.PHONY: precision precision-scenes
