@@ -4,18 +4,35 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <gsl/gsl_complex_math.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
+#include <gsl/gsl_poly.h>
 #include <gsl/gsl_roots.h>
 #include "options.h"
 #include "scene.h"
 #include "shared_options.h"
+#include "travel.h"
 #include "version.h"
 
 struct drop {
   struct contact_law law;
   double gravity;
   double travel; /* longest way in a step (m), 0: any */
+};
+
+/* What goes wrong beside the motion; README.md lists the warnings. */
+struct watch {
+  struct integrator *it;
+  const struct drop *drop;
+  bool adapts; /* the method to stiffness */
+  struct stiffness_limits limits;
+  double weight;        /* of the contact's energy in what cannot grow */
+  double first, lowest; /* of that */
+  double deepest;       /* height that its energy lets it reach */
+  double bottom;        /* lowest height so far */
+  size_t steps, limited_steps;
+  bool told;
 };
 
 /* (2.13), (2.14) for one sphere and the floor */
@@ -41,36 +58,112 @@ static int jacobian(double t, const double y[], double *dfdy, double dfdt[],
 
 static double step_limit(const double y[], const double dydt[], void *params) {
   const struct drop *d = params;
-  const double v = fabs(y[1]), a = fabs(dydt[1]);
-  return 2 * d->travel / (v + sqrt(v * v + 2 * a * d->travel));
+  return travel_time(fabs(y[1]), fabs(dydt[1]), d->travel);
 }
 
 static double energy(const struct drop *d, const double y[]) {
   return 0.5 * y[1] * y[1] + d->gravity * y[0] + contact_energy(&d->law, y[0]);
 }
 
-static void step_or_die(struct integrator *it) {
-  const int status = integrate_step(it);
-  if (status != GSL_SUCCESS) {
+/* Kinetic energy, gravity's and rho(0) F/kappa: it never grows, and with e = 1
+   it is constant. */
+static double remaining(const struct watch *w, const double y[]) {
+  const struct drop *d = w->drop;
+  return 0.5 * y[1] * y[1] + d->gravity * y[0] +
+         w->weight * contact_energy(&d->law, y[0]);
+}
+
+static struct watch watch_start(struct integrator *it, const struct drop *d,
+                                const char *method) {
+  const double e = d->law.restitution;
+  struct watch w = {.it = it, .drop = d, .weight = 0.5 * (1 + e * e)};
+  const int status = integrate_limits(method, &w.limits);
+  if (status == GSL_ENOMEM)
+    die(EXIT_IO, "out of memory");
+  w.adapts = status != GSL_SUCCESS;
+  w.bottom = integrate_state(it)[0];
+  w.first = w.lowest = remaining(&w, integrate_state(it));
+  /* rho(0) F/kappa + g z = energy, by iteration: g z is small there */
+  const double touch = w.weight * contact_energy(&d->law, 0);
+  for (size_t k = 0; k < 20; k++)
+    w.deepest = -log((w.first - d->gravity * w.deepest) / touch) / d->law.kappa;
+  return w;
+}
+
+/* The share of the time in which stability set the step. The mode is the
+   Jacobian's own: lambda^2 = f_z + f_v lambda. */
+static void watch_stiffness(struct watch *w, const double y[]) {
+  double dfdy[4], dfdt[2];
+  gsl_complex root[2];
+  const double h = integrate_last_step(w->it);
+  jacobian(0, y, dfdy, dfdt, (void *)w->drop);
+  gsl_poly_complex_solve_quadratic(1, -dfdy[3], -dfdy[2], &root[0], &root[1]);
+  const size_t k = gsl_complex_abs(root[1]) > gsl_complex_abs(root[0]);
+  const double angle = fabs(gsl_complex_arg(root[k]));
+  const double limit = stiffness_limit_at(&w->limits, GSL_MAX(angle, M_PI_2));
+  if (stiffness_at_limit(h * gsl_complex_abs(root[k]), limit))
+    w->limited_steps++;
+}
+
+/* After every accepted step. */
+static void watch_step(struct watch *w) {
+  const double *y = integrate_state(w->it), t = integrate_time(w->it);
+  const double now = remaining(w, y), kappa = w->drop->law.kappa;
+  w->steps++;
+  w->bottom = GSL_MIN(w->bottom, y[0]);
+  if (!w->adapts)
+    watch_stiffness(w, y);
+  /* so much deeper takes e times the energy there is */
+  if (y[0] < w->deepest - 1 / kappa) {
     fflush(stdout);
-    die(EXIT_INTEGRATION, "t=%.6g: %s", integrate_time(it),
-        status == GSL_FAILURE ? "no step is short enough for the tolerance"
-                              : gsl_strerror(status));
+    die(EXIT_INTEGRATION,
+        "t=%.6g: the sphere is %.3g m below the floor, expected at most %.3g m "
+        "with its energy (docs/stability.md, \"Missed collisions\")",
+        t, -y[0], -w->deepest);
+  }
+  w->lowest = GSL_MIN(w->lowest, now);
+  const double gain = now - w->lowest, loss = w->first - now;
+  const bool lost = w->drop->law.restitution == 1 && loss > 0.01 * w->first;
+  const double scale = now - w->drop->gravity * w->bottom;
+  const double rounding = 4 * GSL_DBL_EPSILON * w->first;
+  if (!w->told && (gain > 0.01 * scale + rounding || lost)) {
+    w->told = true;
+    warn("t=%.6g: %.3g J %s: steps too long (docs/stability.md, \"Energy\")", t,
+         lost ? loss : gain,
+         lost ? "are lost where none can be (e = 1)" : "came from nowhere");
   }
 }
 
-static void print_samples(struct integrator *it, const struct drop *d,
-                          double time, size_t samples) {
+static void watch_end(const struct watch *w) {
+  if (stiffness_sets_pace(w->limited_steps, w->steps))
+    warn("stability, not the tolerance, set %.0f %% of the steps: --method rkc "
+         "takes fewer evaluations (docs/stability.md, \"Stability limits\")",
+         100 * (double)w->limited_steps / (double)w->steps);
+}
+
+static void step_or_die(struct watch *w) {
+  const int status = integrate_step(w->it);
+  if (status != GSL_SUCCESS) {
+    fflush(stdout);
+    die(EXIT_INTEGRATION, "t=%.6g: %s", integrate_time(w->it),
+        status == GSL_FAILURE ? "no step is short enough for the tolerance"
+                              : gsl_strerror(status));
+  }
+  watch_step(w);
+}
+
+static void print_samples(struct watch *w, double time, size_t samples) {
+  struct integrator *it = w->it;
   puts("t\tz\tv\tenergy");
   for (size_t k = 0; k < samples; k++) {
     const double t =
         samples > 1 ? time * (double)k / (double)(samples - 1) : time;
     double y[2];
     while (integrate_time(it) < t)
-      step_or_die(it);
+      step_or_die(w);
     if (integrate_at(it, t, y) != GSL_SUCCESS)
       die(EXIT_IO, "internal error: no state at t=%g", t);
-    printf("%.17g\t%.17g\t%.17g\t%.17g\n", t, y[0], y[1], energy(d, y));
+    printf("%.17g\t%.17g\t%.17g\t%.17g\n", t, y[0], y[1], energy(w->drop, y));
   }
 }
 
@@ -101,12 +194,13 @@ static double find_apex(struct integrator *it, double from, double to) {
 
 /* One row: time of the first apex after the rebound beside the hard-contact
    limit (1 + e) sqrt(2 h0/g). */
-static int print_rebound(struct integrator *it, const struct drop *d,
-                         double height, double time) {
+static int print_rebound(struct watch *w, double height, double time) {
+  struct integrator *it = w->it;
+  const struct drop *d = w->drop;
   bool rising = false;
   while (integrate_time(it) < time) {
     const double before = integrate_time(it);
-    step_or_die(it);
+    step_or_die(w);
     const double v = integrate_state(it)[1];
     if (rising && v <= 0) {
       const double t = find_apex(it, before, integrate_time(it));
@@ -195,10 +289,12 @@ int main(int argc, char **argv) {
         integrate.method, gsl_strerror(status));
   print_header(options);
   int code = EXIT_DONE;
+  struct watch w = watch_start(it, &drop, integrate.method);
   if (rebound)
-    code = print_rebound(it, &drop, height, time);
+    code = print_rebound(&w, height, time);
   else
-    print_samples(it, &drop, time, samples);
+    print_samples(&w, time, samples);
+  watch_end(&w);
   integrate_free(it);
   finish_output();
   return code;

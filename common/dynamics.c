@@ -8,6 +8,8 @@
 #include "jacobian.h"
 #include "kernel.h"
 #include "neighbors.h"
+#include "survey.h"
+#include "travel.h"
 
 struct dynamics {
   struct kernel_data k;
@@ -495,13 +497,13 @@ int dynamics_jacobian(double t, const double y[], double *dfdy, double dfdt[],
 
 double dynamics_step_limit(const struct dynamics *d, const double y[],
                            const double dydt[], double travel) {
-  double fastest = 0; /* of 2 travel / h */
+  double least = GSL_POSINF;
   for (size_t i = 0; i < d->n; i++) {
     const double v = vec3_norm(y + i * d->k.stride + 3);
     const double a = vec3_norm(dydt + i * d->k.stride + 3);
-    fastest = GSL_MAX(fastest, v + sqrt(v * v + 2 * a * travel));
+    least = GSL_MIN(least, travel_time(v, a, travel));
   }
-  return 2 * travel / fastest;
+  return least;
 }
 
 void dynamics_scale(const struct dynamics *d, double scale[]) {
@@ -525,30 +527,21 @@ double dynamics_kinetic(const struct dynamics *d, const double y[]) {
   return sum;
 }
 
+int dynamics_survey(struct dynamics *d, const double y[],
+                    struct dynamics_survey *s) {
+  const int status = update_list(d, y);
+  if (status != GSL_SUCCESS)
+    return status;
+  survey_take(&d->k, d->n, y, s);
+  s->sphere = d->order[s->sphere];
+  s->outsider = d->order[s->outsider];
+  return GSL_SUCCESS;
+}
+
 double dynamics_potential(struct dynamics *d, const double y[]) {
-  if (update_list(d, y) != GSL_SUCCESS)
-    return GSL_NAN;
-  const struct contact_law *law = &d->k.law;
-  const size_t stride = d->k.stride;
-  double sum = 0;
-  for (size_t i = 0; i < d->n; i++)
-    sum -= d->mass[i] * vec3_dot(d->k.gravity, y + i * stride);
-  for (size_t p = 0; p < d->k.pairs; p++) {
-    const size_t i = d->k.i[p], j = d->k.j[p];
-    double u[3];
-    vec3_sub(y + i * stride, y + j * stride, u);
-    const double gap = vec3_norm(u) - d->radius[i] - d->radius[j];
-    if (gap <= law->lmax)
-      sum += contact_energy(law, gap);
-  }
-  for (size_t p = 0; p < d->k.wall_contacts; p++) {
-    const size_t i = d->wall_sphere[p];
-    const double gap =
-        wall_distance(&d->walls[d->wall_id[p]], y + i * stride) - d->radius[i];
-    if (gap <= law->lmax)
-      sum += contact_energy(law, gap);
-  }
-  return sum;
+  struct dynamics_survey s;
+  return dynamics_survey(d, y, &s) == GSL_SUCCESS ? s.gravity + s.stored
+                                                  : GSL_NAN;
 }
 
 double dynamics_fastest(const struct dynamics *d, const double y[]) {

@@ -70,6 +70,25 @@ void dynamics_scale(const struct dynamics *d, double scale[]);
 double dynamics_kinetic(const struct dynamics *d, const double y[]);
 double dynamics_potential(struct dynamics *d, const double y[]);
 
+/* What the contacts of a state say. */
+struct dynamics_survey {
+  double gravity;  /* J, from the origin */
+  double stored;   /* J in contacts, each F/kappa */
+  size_t contacts; /* within lmax */
+  /* Deepest overlap of any contact, in radii of the smaller sphere (a wall has
+     none), and a sphere that has it; 0 where none overlap. */
+  double overlap;
+  size_t sphere;
+  /* Least distance of a listed centre from its wall, negative outside (m), the
+     sphere and the wall; GSL_POSINF where no sphere is near a wall. */
+  double inside;
+  size_t outsider, wall;
+};
+
+/* May rebuild the pair list. GSL_SUCCESS, or an error as of dynamics_rhs. */
+int dynamics_survey(struct dynamics *d, const double y[],
+                    struct dynamics_survey *s);
+
 /* Largest speed of any sphere's surface, |v| or r |w| (m/s). */
 double dynamics_fastest(const struct dynamics *d, const double y[]);
 

@@ -8,7 +8,6 @@
 #include "control.h"
 #include "dopri5.h"
 #include "merson.h"
-#include "rkc.h"
 #include "verlet.h"
 
 const char *const integrate_methods[] = {"merson", "dopri5", "rkf45",
@@ -235,6 +234,21 @@ struct integrate_counts integrate_counts(const struct integrator *it) {
 
 const double *integrate_derivative(const struct integrator *it) {
   return it->rate;
+}
+
+int integrate_limits(const char *method, struct stiffness_limits *l) {
+  const gsl_odeiv2_step_type *type = find_method(method);
+  if (!type || type == rkc || type == gsl_odeiv2_step_msbdf)
+    return GSL_EINVAL;
+  if (type != verlet)
+    return stiffness_limits(type, l);
+  for (size_t k = 0; k < STIFFNESS_RAYS; k++)
+    l->at[k] = 2;
+  return GSL_SUCCESS;
+}
+
+struct rkc_report integrate_rkc_report(const struct integrator *it) {
+  return it->step->type == rkc ? rkc_report(it->step) : (struct rkc_report){0};
 }
 
 int integrate_at(const struct integrator *it, double t, double y[]) {

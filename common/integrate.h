@@ -7,7 +7,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <gsl/gsl_odeiv2.h>
+#include "rkc.h"
 #include "stage.h"
+#include "stiffness.h"
 
 /* Names of methods and controls, NULL-terminated. */
 extern const char *const integrate_methods[];
@@ -76,6 +78,14 @@ double integrate_last_step(const struct integrator *it);
 struct integrate_counts integrate_counts(const struct integrator *it);
 /* Derivative at the end of the last step. */
 const double *integrate_derivative(const struct integrator *it);
+
+/* Largest h |lambda| that a method takes without growth, by the angle of lambda
+   (stiffness.h); verlet's is 2, for undamped oscillation and for friction.
+   GSL_SUCCESS, GSL_EINVAL for methods that adapt to stiffness, GSL_ENOMEM. */
+int integrate_limits(const char *method, struct stiffness_limits *l);
+
+/* What rkc has found so far, all 0 for other methods. */
+struct rkc_report integrate_rkc_report(const struct integrator *it);
 
 /* State at a time within the last step, by a cubic Hermite polynomial. Before
    the first step the start is all there is. GSL_EDOM outside. */

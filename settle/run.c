@@ -9,8 +9,9 @@
 #include <unistd.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
-#include "dynamics.h"
 #include "files.h"
+#include "motion.h"
+#include "watch.h"
 
 /* At rest: no surface faster than vmin, the speed below which the model's own
    friction lets a loaded contact creep, for so long (s). */
@@ -20,8 +21,8 @@ struct run {
   const struct settings *set;
   const struct bed_header *header;
   struct bed *bed;
-  struct dynamics *dynamics;
-  struct integrator *integrator;
+  struct motion motion;
+  struct watch *watch;
   double *y;           /* interpolated state */
   double start, moved; /* time of the start, and when last not at rest */
   size_t frames;       /* written */
@@ -36,41 +37,14 @@ static double seconds(clockid_t clock) {
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* The system's params: dynamics_rhs wants a struct dynamics, the limit the
-   distance too. */
-struct limited {
-  struct dynamics *dynamics;
-  double travel;
-};
-
-static int rhs(double t, const double y[], double dydt[], void *params) {
-  return dynamics_rhs(t, y, dydt, ((struct limited *)params)->dynamics);
-}
-
-static int stage(double t, const double y[], const struct stage *s,
-                 double out[], void *params) {
-  return dynamics_stage(t, y, s, out, ((struct limited *)params)->dynamics);
-}
-
-static int jacobian(double t, const double y[], double *dfdy, double dfdt[],
-                    void *params) {
-  return dynamics_jacobian(t, y, dfdy, dfdt,
-                           ((struct limited *)params)->dynamics);
-}
-
-static double step_limit(const double y[], const double dydt[], void *params) {
-  const struct limited *l = params;
-  return dynamics_step_limit(l->dynamics, y, dydt, l->travel);
-}
-
 static void write_frame(struct run *r, const double *y, double t) {
   static const struct bed_header none = {0};
-  dynamics_unpack(r->dynamics, y, r->bed);
+  dynamics_unpack(r->motion.dynamics, y, r->bed);
   r->bed->t = t;
   if (r->frames)
     bed_write_gap(stdout);
   bed_write_frame(stdout, r->frames ? &none : r->header, r->bed,
-                  dynamics_stride(r->dynamics) == 9);
+                  dynamics_stride(r->motion.dynamics) == 9);
   r->frames++;
   if (ferror(stdout))
     finish_output(); /* does not return */
@@ -85,23 +59,30 @@ static double frame_time(const struct run *r, size_t k) {
 
 /* Every frame that is due by now. */
 static void write_due_frames(struct run *r) {
-  const double t = integrate_time(r->integrator);
+  const double t = integrate_time(r->motion.integrator);
   while (r->frames < r->set->frames && frame_time(r, r->frames) <= t) {
     const double at = frame_time(r, r->frames);
-    if (integrate_at(r->integrator, at, r->y) == GSL_SUCCESS)
+    if (integrate_at(r->motion.integrator, at, r->y) == GSL_SUCCESS)
       write_frame(r, r->y, at);
     else
       die(EXIT_IO, "internal error: frame at t=%g outside the last step", at);
   }
 }
 
+/* Of the method, without the watch's own. */
+static size_t evaluations(const struct run *r) {
+  return dynamics_counts(r->motion.dynamics).evaluations -
+         watch_evaluations(r->watch);
+}
+
 static void write_log(struct run *r) {
-  const double *y = integrate_state(r->integrator);
+  const double *y = integrate_state(r->motion.integrator);
   fprintf(r->log, "%.17g\t%.17g\t%zu\t%zu\t%.17g\t%.17g\n",
-          integrate_time(r->integrator), integrate_last_step(r->integrator),
-          integrate_counts(r->integrator).accepted,
-          dynamics_counts(r->dynamics).evaluations,
-          dynamics_kinetic(r->dynamics, y), dynamics_potential(r->dynamics, y));
+          integrate_time(r->motion.integrator),
+          integrate_last_step(r->motion.integrator),
+          integrate_counts(r->motion.integrator).accepted, evaluations(r),
+          dynamics_kinetic(r->motion.dynamics, y),
+          dynamics_potential(r->motion.dynamics, y));
 }
 
 static void show_progress(struct run *r) {
@@ -109,19 +90,19 @@ static void show_progress(struct run *r) {
   if (!r->show || elapsed < r->shown + 0.5)
     return;
   r->shown = elapsed;
-  const double t = integrate_time(r->integrator);
+  const double t = integrate_time(r->motion.integrator);
   const double done = (t - r->start) / (r->set->time - r->start);
   fprintf(stderr,
           "\rsettle: %3.0f %%  t=%.3f s  h=%.2e s  %zu evaluations  %.0f s "
           "left \033[K",
-          100 * done, t, integrate_last_step(r->integrator),
-          dynamics_counts(r->dynamics).evaluations,
-          elapsed * (1 - done) / GSL_MAX(done, 1e-9));
+          100 * done, t, integrate_last_step(r->motion.integrator),
+          evaluations(r), elapsed * (1 - done) / GSL_MAX(done, 1e-9));
 }
 
 static bool at_rest(struct run *r) {
-  const double t = integrate_time(r->integrator);
-  if (dynamics_fastest(r->dynamics, integrate_state(r->integrator)) >=
+  const double t = integrate_time(r->motion.integrator);
+  if (dynamics_fastest(r->motion.dynamics,
+                       integrate_state(r->motion.integrator)) >=
       r->set->scene.law.vmin)
     r->moved = t;
   return t - r->moved >= rest_time;
@@ -130,14 +111,14 @@ static bool at_rest(struct run *r) {
 static void write_stats(const struct run *r, FILE *out, double t_end,
                         int status) {
   const struct settings *s = r->set;
-  const struct integrate_counts steps = integrate_counts(r->integrator);
-  const struct dynamics_counts counts = dynamics_counts(r->dynamics);
+  const struct integrate_counts steps = integrate_counts(r->motion.integrator);
+  const struct dynamics_counts counts = dynamics_counts(r->motion.dynamics);
   fprintf(out, "method\t%s\n", s->integrate.method);
   fprintf(out, "control\t%s\n",
           s->integrate.step > 0 ? "none" : s->integrate.control);
   fprintf(out, "spheres\t%zu\n", r->bed->n);
-  fprintf(out, "unknowns\t%zu\n", dynamics_dimension(r->dynamics));
-  fprintf(out, "rhs_evaluations\t%zu\n", counts.evaluations);
+  fprintf(out, "unknowns\t%zu\n", dynamics_dimension(r->motion.dynamics));
+  fprintf(out, "rhs_evaluations\t%zu\n", evaluations(r));
   fprintf(out, "steps_accepted\t%zu\n", steps.accepted);
   fprintf(out, "steps_rejected\t%zu\n", steps.rejected);
   fprintf(out, "cpu_seconds\t%.6f\n",
@@ -145,14 +126,31 @@ static void write_stats(const struct run *r, FILE *out, double t_end,
   fprintf(out, "wall_seconds\t%.6f\n",
           seconds(CLOCK_MONOTONIC) - r->wall_start);
   fprintf(out, "threads\t%zu\n", s->threads);
-  fprintf(out, "kernel\t%s\n", dynamics_kernel(r->dynamics));
+  fprintf(out, "kernel\t%s\n", dynamics_kernel(r->motion.dynamics));
   fprintf(out, "t_end\t%.17g\n", t_end);
   fprintf(out, "pair_list_builds\t%zu\n", counts.builds);
   fprintf(out, "contacts_listed\t%zu\n", counts.contacts);
   struct rusage usage;
   if (getrusage(RUSAGE_SELF, &usage) == 0)
     fprintf(out, "peak_memory_kb\t%ld\n", usage.ru_maxrss);
+  watch_stats(r->watch, out);
   fprintf(out, "exit_status\t%d\n", status);
+}
+
+/* page: of docs/stability.md */
+static int failed(double t, const char *what, const char *page, char *reason,
+                  size_t size) {
+  snprintf(reason, size, "failed at t=%.6g: %s", t, what);
+  warn("t=%.6g: %s; the bed is marked as failed (docs/stability.md, \"%s\")", t,
+       what, page);
+  return EXIT_INTEGRATION;
+}
+
+static const char *explain(const struct settings *s, int status) {
+  if (status != GSL_FAILURE)
+    return gsl_strerror(status);
+  return s->integrate.step > 0 ? "forces overflow with this --step"
+                               : "no step is short enough for the tolerance";
 }
 
 /* Steps until the end, rest or failure; the exit status and, in reason, what
@@ -161,20 +159,16 @@ static int integrate_all(struct run *r, char *reason, size_t size) {
   const struct settings *s = r->set;
   snprintf(reason, size, "ok");
   write_due_frames(r);
-  while (integrate_time(r->integrator) < s->time) {
-    const int status = integrate_step(r->integrator);
-    const double t = integrate_time(r->integrator);
-    if (status != GSL_SUCCESS) {
-      snprintf(reason, size, "failed at t=%.6g: %s", t,
-               status == GSL_FAILURE
-                   ? "no step is short enough for the tolerance"
-                   : gsl_strerror(status));
-      warn("t=%.6g: %s; the bed is marked as failed", t,
-           reason + strcspn(reason, ":") + 2);
-      return EXIT_INTEGRATION;
-    }
+  while (integrate_time(r->motion.integrator) < s->time) {
+    const int status = integrate_step(r->motion.integrator);
+    const double t = integrate_time(r->motion.integrator);
+    if (status != GSL_SUCCESS)
+      return failed(t, explain(s, status), "Missed collisions", reason, size);
     if (r->log)
       write_log(r);
+    char found[80];
+    if (!watch_step(r->watch, found, sizeof found))
+      return failed(t, found, "Missed collisions", reason, size);
     write_due_frames(r);
     show_progress(r);
     if (s->until_rest && at_rest(r))
@@ -185,7 +179,9 @@ static int integrate_all(struct run *r, char *reason, size_t size) {
   snprintf(reason, size, "limit: not at rest at t=%g", s->time);
   warn("not at rest at t=%g: surfaces still move at %.3g m/s, expected below "
        "vmin = %g m/s",
-       s->time, dynamics_fastest(r->dynamics, integrate_state(r->integrator)),
+       s->time,
+       dynamics_fastest(r->motion.dynamics,
+                        integrate_state(r->motion.integrator)),
        s->scene.law.vmin);
   return EXIT_LIMIT;
 }
@@ -197,35 +193,17 @@ int run(const struct settings *s, struct bed *b,
   r.wall_start = seconds(CLOCK_MONOTONIC);
   r.cpu_start = seconds(CLOCK_PROCESS_CPUTIME_ID);
   r.show = !s->quiet && isatty(STDERR_FILENO);
-  r.dynamics = dynamics_alloc(
-      &s->scene, b,
+  const int status = motion_start(
+      &r.motion, &s->scene, b, &s->integrate,
       &(struct dynamics_options){.all_pairs = !strcmp(s->pairs, "all"),
-                                 .threads = (int)s->threads});
-  if (!r.dynamics)
-    die(EXIT_IO, "out of memory");
-  const size_t dim = dynamics_dimension(r.dynamics);
-  double *scale = malloc(dim * sizeof *scale);
-  r.y = malloc(dim * sizeof *r.y);
-  if (!scale || !r.y)
-    die(EXIT_IO, "out of memory");
-  dynamics_pack(r.dynamics, b, r.y);
-  dynamics_scale(r.dynamics, scale);
-  struct limited limited = {r.dynamics, s->travel / s->scene.law.kappa};
-  const struct integrate_problem problem = {
-      .system = {.function = rhs,
-                 .jacobian = jacobian,
-                 .dimension = dim,
-                 .params = &limited},
-      .scale = scale,
-      .row = dynamics_stride(r.dynamics),
-      .positions = 3,
-      .step_limit = s->travel > 0 ? step_limit : NULL,
-      .stage = !strcmp(s->pairs, "all") ? NULL : stage};
-  const int status =
-      integrate_alloc(&r.integrator, &s->integrate, &problem, b->t, r.y);
+                                 .threads = (int)s->threads},
+      s->travel / s->scene.law.kappa);
   if (status != GSL_SUCCESS)
     die(status == GSL_EINVAL ? EXIT_USAGE : EXIT_IO, "method %s: %s",
         s->integrate.method, gsl_strerror(status));
+  r.y = malloc(dynamics_dimension(r.motion.dynamics) * sizeof *r.y);
+  if (!r.y)
+    die(EXIT_IO, "out of memory");
   struct output_file log, stats; /* opened before hours are spent */
   if (s->stats)
     output_open(&stats, s->stats);
@@ -235,14 +213,18 @@ int run(const struct settings *s, struct bed *b,
     fputs("t\th\tsteps\tevaluations\tkinetic\tpotential\n", r.log);
   }
 
+  r.watch = watch_start(s, b, &r.motion);
+  if (!r.watch)
+    die(EXIT_IO, "out of memory");
   char reason[160];
   const int code = integrate_all(&r, reason, sizeof reason);
   if (r.show)
     fputs("\r\033[K", stderr);
-  const double t_end = GSL_MIN(integrate_time(r.integrator), s->time);
+  watch_end(r.watch);
+  const double t_end = GSL_MIN(integrate_time(r.motion.integrator), s->time);
   /* ended before the last frame: the state reached is one more */
   if (r.frames < s->frames) {
-    if (integrate_at(r.integrator, t_end, r.y) != GSL_SUCCESS)
+    if (integrate_at(r.motion.integrator, t_end, r.y) != GSL_SUCCESS)
       die(EXIT_IO, "internal error: no state at t=%g", t_end);
     write_frame(&r, r.y, t_end);
   }
@@ -254,9 +236,8 @@ int run(const struct settings *s, struct bed *b,
     write_stats(&r, stats.stream, t_end, code);
     output_commit(&stats);
   }
-  integrate_free(r.integrator);
-  dynamics_free(r.dynamics);
-  free(scale);
+  watch_free(r.watch);
+  motion_free(&r.motion);
   free(r.y);
   return code;
 }
