@@ -420,8 +420,9 @@ static bool evaluate_part(const struct dynamics *d, size_t p, const double *y,
   const struct kernel *kernel = d->kernel;
   const struct kernel_data *k = &d->k;
   const struct kernel_part *part = &d->part[p];
-  kernel->add_pairs(k, y, d->in_i + d->incoming[p], d->in_j + d->incoming[p],
-                    d->incoming[p + 1] - d->incoming[p], part);
+  const size_t in = d->incoming[p], incoming = d->incoming[p + 1] - in;
+  if (incoming)
+    kernel->add_pairs(k, y, d->in_i + in, d->in_j + in, incoming, part);
   bool finite = true;
   double few[ROWS * 9];
   for (size_t i = part->from; i < part->to; i += ROWS) {

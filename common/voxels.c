@@ -309,6 +309,7 @@ static void midpoint_row(const struct row *w, double y, double z,
 
 static int by_row(struct voxels *v, enum voxels_value what, size_t k, size_t j0,
                   size_t j1, size_t threads, double *value) {
+  (void)threads; /* without OpenMP */
   if (list_members(v, k, j0, j1) != GSL_SUCCESS)
     return GSL_ENOMEM;
   size_t most = 0;

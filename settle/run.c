@@ -10,12 +10,9 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include "files.h"
+#include "rest.h"
 #include "motion.h"
 #include "watch.h"
-
-/* At rest: no surface faster than vmin, the speed below which the model's own
-   friction lets a loaded contact creep, for so long (s). */
-static const double rest_time = 0.1;
 
 struct run {
   const struct settings *set;
@@ -23,9 +20,10 @@ struct run {
   struct bed *bed;
   struct motion motion;
   struct watch *watch;
-  double *y;           /* interpolated state */
-  double start, moved; /* time of the start, and when last not at rest */
-  size_t frames;       /* written */
+  double *y;    /* interpolated state */
+  double start; /* time */
+  struct rest_watch rest;
+  size_t frames; /* written */
   FILE *log;
   double wall_start, cpu_start, shown;
   bool show;
@@ -100,12 +98,11 @@ static void show_progress(struct run *r) {
 }
 
 static bool at_rest(struct run *r) {
-  const double t = integrate_time(r->motion.integrator);
-  if (dynamics_fastest(r->motion.dynamics,
-                       integrate_state(r->motion.integrator)) >=
-      r->set->scene.law.vmin)
-    r->moved = t;
-  return t - r->moved >= rest_time;
+  const struct motion *m = &r->motion;
+  return rest_watch_see(
+      &r->rest, integrate_time(m->integrator),
+      dynamics_fastest(m->dynamics, integrate_state(m->integrator)),
+      r->set->scene.law.vmin);
 }
 
 static void write_stats(const struct run *r, FILE *out, double t_end,
@@ -189,7 +186,7 @@ static int integrate_all(struct run *r, char *reason, size_t size) {
 int run(const struct settings *s, struct bed *b,
         const struct bed_header *header) {
   struct run r = {.set = s, .header = header, .bed = b, .start = b->t};
-  r.moved = b->t;
+  r.rest = rest_watch_begin(b->t);
   r.wall_start = seconds(CLOCK_MONOTONIC);
   r.cpu_start = seconds(CLOCK_PROCESS_CPUTIME_ID);
   r.show = !s->quiet && isatty(STDERR_FILENO);

@@ -1,0 +1,24 @@
+# Puts what stands in docs/NAME.md between a page's lines
+#   <!-- docs/NAME.md --> ... <!-- end -->
+# so that a caption is written once, beside its figure: awk -f docs/include.awk
+# README.md. Exits with 1 if there is no such file, or no end.
+/^<!-- docs\/[a-z0-9.-]+\.md -->$/ {
+  print
+  if ((getline line < $2) <= 0) {
+    print FILENAME ":" FNR ": " $2 ": missing or empty" > "/dev/stderr"
+    failed = 1
+  } else
+    print line
+  while ((getline line < $2) > 0)
+    print line
+  close($2)
+  inside = 1
+  next
+}
+/^<!-- end -->$/ { inside = 0 }
+!inside { print }
+END {
+  if (inside)
+    print FILENAME ": no <!-- end -->" > "/dev/stderr"
+  exit failed || inside
+}
