@@ -11,6 +11,7 @@ enum column { OTHER, ID, X, Y, Z, R, D, M, VX, VY, VZ, WX, WY, WZ, T, COLUMNS };
 
 enum {
   MOST_FIELDS = 256,      /* of a row */
+  MOST_KEYS = 4096,       /* of a header; each is looked for among all */
   LONGEST_LINE = 1 << 20, /* bytes; what is longer is not one of our formats */
   BLANKS = 0              /* separator: any number of spaces and tabs */
 };

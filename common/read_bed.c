@@ -27,6 +27,8 @@ static int read_key(struct bed_reader *r, char *text) {
   value = trim(value);
   if (!*name || strpbrk(name, " \t"))
     return GSL_SUCCESS;
+  if (r->header.count >= MOST_KEYS)
+    return reader_fail(r, "more than %d keys", MOST_KEYS);
   if (!strcmp(name, "format") && strcmp(value, "bed-1"))
     return reader_fail(r, "format=%s: expected bed-1", value);
   if (!strcmp(name, "radius") &&

@@ -399,6 +399,9 @@ static const struct refused {
     {STEP COUNT(1) "ITEM: BOX BOUNDS\n0 1e300\n0 1\n0 1\n"
                    "ITEM: ATOMS xs ys zs radius\n1e50 0 0 1\n",
      10, "too large"},
+    {STEP COUNT(1) "ITEM: BOX BOUNDS\n-1.7e308 1.7e308\n0 1\n0 1\n"
+                   "ITEM: ATOMS xs ys zs radius\n0 0 0 1\n",
+     10, "too large"},
     {STEP "ITEM: NUMBER OF ENTRIES\n1\n", 3, "not known"},
     {STEP COUNT(1) ATOMS "1 1 2 inf .1\n", 6, "column z is 'inf'"},
     {STEP COUNT(1) ATOMS "1 1 2 1e300 .1\n", 6, "z is 1e+300"},
@@ -422,6 +425,19 @@ static void test_refusals(void) {
               f.error, c->text);
     free_frames(&f);
   }
+
+  /* keys without an end */
+  char *keys = NULL;
+  size_t keys_size = 0;
+  FILE *out = open_memstream(&keys, &keys_size);
+  if (!out)
+    abort();
+  for (int k = 0; k < 5000; k++)
+    fprintf(out, "# key%d=%d\n", k, k);
+  fclose(out);
+  struct frames_read many = read_text(keys, keys_size, &plain);
+  CHECK(many.status == GSL_EINVAL && strstr(many.error, "file:4097: more"));
+  free(keys);
 
   /* one line without an end */
   const size_t size = (1 << 20) + 10;
