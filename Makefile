@@ -84,7 +84,7 @@ $(B)/tests/%: $(O)/tests/%.o $(LIBRARY)
 	$(LINK)
 .SECONDARY:
 
-check: all $(TEST_PROGRAMS) ## run the tests (minutes)
+check: all $(B)/stability $(TEST_PROGRAMS) ## run the tests (minutes)
 	@B=$(B) tests/run.sh $(TEST_PROGRAMS) $(TEST_SCRIPTS)
 
 # What the fuzzer finds is kept in B/fuzz; the small cases of tests/corpus are

@@ -180,7 +180,7 @@ int verb_drift(int argc, char **argv) {
   const double first = energy(&m);
   double next = 1, largest = 0, rise = 0;
   const char *word = "ok";
-  while (next <= units && !strcmp(word, "ok")) {
+  while (!strcmp(word, "ok")) {
     if (integrate_step(m.integrator) != GSL_SUCCESS)
       word = "gave_up";
     const double error = energy(&m) / first - 1;
@@ -198,7 +198,9 @@ int verb_drift(int argc, char **argv) {
              dynamics_counts(m.dynamics).evaluations, word);
       fflush(stdout);
       largest = 0;
-      next = GSL_MAX(next * pow(10, 0.1), next + 1);
+      if (next >= units)
+        break;
+      next = GSL_MIN(GSL_MAX(next * pow(10, 0.1), next + 1), units);
     }
   }
   motion_free(&m);
