@@ -298,15 +298,13 @@ int verb_export(int argc, char **argv) {
        .most = OPTION_MANY, .unit = "from 0", .help = "one frame"},
       {.name = "box", .type = OPTION_LIST, .value = &box, .least = 6,
        .most = 6, .unit = "m, x0,x1,y0,y1,z0,z1",
-       .help = "of vti and raw; of xyz and lammps, else their walls or spheres"},
+       .help = "of voxels; of xyz and lammps, else by walls and spheres"},
       {.name = "cells", .type = OPTION_LIST, .value = &cells, .least = 1,
        .most = 3, .unit = "N or NX,NY,NZ", .help = "voxels of vti and raw"},
       {.name = "binary", .type = OPTION_FLAG, .value = &q.write.binary,
        .help = "voxels: 1 where the midpoint is solid, else 0; a byte each"},
       {.name = "distance", .type = OPTION_FLAG, .value = &q.write.distance,
-       .help = "voxels: distance of the midpoint to the surface (m), exact "
-               "outside;\n                     within the solid negative, and "
-               "where spheres overlap too small"},
+       .help = "voxels: distance of the midpoint to the surface (m)"},
       {.name = "type", .type = OPTION_TEXT, .value = &type,
        .choices = type_names, .help = "of a voxel's number"},
       {.name = "threads", .type = OPTION_SIZE, .value = &q.write.threads,
@@ -334,11 +332,13 @@ int verb_export(int argc, char **argv) {
           "  vti          voxels as VTK ImageData: ParaView\n"
           "  raw          voxels as bare numbers, x fastest, then y, z\n"
           "A voxel is the solid fraction of its cell: the exact union of the\n"
-          "spheres. Binary numbers are little-endian. csv, xyz and lammps "
-          "hold\n"
-          "all frames, the others one, the last; with --frames all they need "
-          "an\n"
-          "--output such as bed-%04d.vtp, and vtp and vti get a bed.pvd too.",
+          "spheres. Distances are exact outside of the solid; inside they are\n"
+          "negative and, where spheres overlap, too small. Binary numbers are\n"
+          "little-endian.\n"
+          "csv, xyz and lammps hold all frames, the others one, the last; "
+          "with\n"
+          "--frames all they need an --output such as bed-%04d.vtp, and vtp\n"
+          "and vti get a bed.pvd too.",
       .usage = "export --format NAME [OPTION...] [FILE]",
       .example = "settle | analyze export --format vtp > bed.vtp",
       .options = options};

@@ -17,10 +17,11 @@ void write_csv(FILE *out, const struct write_frame *f,
     fprintf(out, "t,id,x,y,z,r,m,vx,vy,vz,wx,wy,wz\n");
   for (size_t i = 0; i < b->n; i++) {
     const double *x = b->x + 3 * i, *v = b->v + 3 * i, *w = b->w + 3 * i;
-    fprintf(out,
-            "%.17g,%ld,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,"
-            "%.17g\n",
-            b->t, b->id[i], x[0], x[1], x[2], b->r[i], b->m[i], v[0], v[1], v[2],
-            w[0], w[1], w[2]);
+    fprintf(
+        out,
+        "%.17g,%ld,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,"
+        "%.17g\n",
+        b->t, b->id[i], x[0], x[1], x[2], b->r[i], b->m[i], v[0], v[1], v[2],
+        w[0], w[1], w[2]);
   }
 }

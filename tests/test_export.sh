@@ -38,7 +38,8 @@ refuse() { # NAME STATUS PATTERN ARGUMENT...: one line, and no result
     passed=$((passed + 1))
   else
     failed=$((failed + 1))
-    echo "failed: $name: exit status $status, expected $code and '$pattern':" >&2
+    echo "failed: $name: exit status $status, expected $code and" \
+      "'$pattern':" >&2
     head -n 3 "$T/err" >&2
   fi
 }
@@ -62,8 +63,8 @@ film() {
     printf 'id\tx\ty\tz\tr\tm\tvx\tvy\tvz\twx\twy\twz\n'
     awk -v t=$t 'BEGIN {OFS = "\t"; split("0 1 7 9", id, " ")
       for (i = 1; i <= 4; i++)
-        print id[i], sprintf("%.17g", 0.3 * i + t / 3), 0.5 + i / 7, 0.3 - t / 7,
-          0.1 * i, 1 + i / 3, t * i, -t, 0.125 * i, i, -i / 3, t}'
+        print id[i], sprintf("%.17g", 0.3 * i + t / 3), 0.5 + i / 7,
+          0.3 - t / 7, 0.1 * i, 1 + i / 3, t * i, -t, 0.125 * i, i, -i / 3, t}'
   done
   printf '# status=ok\n'
 }
@@ -118,8 +119,8 @@ check "xyz: --box" [ "$(export_ --format xyz --box=-1,1,-2,2,-3,3 "$T/film" |
   grep -c '^Lattice="2 0 0 0 4 0 0 0 6" Origin="-1 -2 -3" ')" = 3 ]
 
 export_ --format lammps "$T/film" >"$T/film.dump"
-check "lammps: all frames, numbered" [ "$(grep -A 1 'ITEM: TIMESTEP' "$T/film.dump" |
-  grep -c '^[012]$')" = 3 ]
+check "lammps: all frames, numbered" [ "$(grep -A 1 'ITEM: TIMESTEP' \
+  "$T/film.dump" | grep -c '^[012]$')" = 3 ]
 check "lammps: numbers from 1" [ "$(tail -n 4 "$T/film.dump" | cut -d ' ' -f 1 |
   tr '\n' ' ')" = '1 2 8 10 ' ]
 
@@ -235,7 +236,8 @@ if [[ -x $python ]] && "$python" -c 'import vtk' 2>/dev/null; then
     --distance "$T/film" >"$T/d.vti"
   export_ --format vti --cells 8,6,4 --box=-1,1,0,1.5,0,0.5 --binary \
     "$T/film" >"$T/b.vti"
-  export_ --format raw --cells 8,6,4 --box=-1,1,0,1.5,0,0.5 "$T/film" >"$T/a.raw"
+  export_ --format raw --cells 8,6,4 --box=-1,1,0,1.5,0,0.5 "$T/film" \
+    >"$T/a.raw"
   export_ --format vtp "$T/film" >"$T/a.vtp"
   export_ --quiet --format stl "$T/film" >"$T/a.stl"
   cat >"$T/read.py" <<'END'
@@ -293,7 +295,8 @@ for i, row in enumerate(rows):
     got = [a["id"][i], *a["positions"][i], a["radius"][i], a["mass"][i],
            *a["velo"][i], *a["angular_velocity"][i]]
     assert got == [float(x) for x in row], (got, row)
-d = ase.io.read(sys.argv[1] + "/film.dump", format="lammps-dump-text", index=":")
+d = ase.io.read(sys.argv[1] + "/film.dump", format="lammps-dump-text",
+                index=":")
 assert len(d) == 3 and abs(d[-1].positions[3] - f.positions[3]).max() == 0
 END
   check "ASE reads xyz and the dump" "$python" "$T/read.py" "$T"
@@ -327,14 +330,15 @@ END
     awk '{$1 += 1; print}' CONVFMT=%.17g >"$T/want"
   # density from mass and back: two roundings more
   check "LAMMPS reads the data file" awk '
-    function off(a, b, d) {d = a - b; return !(d <= 1e-15 * 8 && -d <= 1e-15 * 8)}
+    function off(a, b, d) {d = a - b; return !(d <= 8e-15 && -d <= 8e-15)}
     {for (k = 1; k <= 12; k++) if (off($k, $(k + 12))) bad = 1}
     END {exit bad || NR != 4}' <(paste -d ' ' "$T/got" "$T/want")
   columns 2 id x y z vx vy vz | awk '{$1 += 1; print}' CONVFMT=%.17g >"$T/want"
   check "LAMMPS's read_dump" same_numbers \
     <(tail -n 4 "$T/last" | cut -d ' ' -f 1-4,7-9) "$T/want"
   check "LAMMPS's rerun passes all frames" [ "$(awk '
-    $1 == "Step" {n = 0; on = 1; next} /^Loop/ {on = 0} on {n++} END {print n}' \
+    $1 == "Step" {n = 0; on = 1; next} /^Loop/ {on = 0} on {n++}
+    END {print n}' \
     "$T/lmp.out")" = 3 ]
 else
   echo "test_export.sh: skipped: LAMMPS's readers (lmp not installed)" >&2
