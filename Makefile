@@ -139,6 +139,7 @@ help: ## this list
 
 include plots/figures.mk
 include plots/structure.mk
+include plots/analysis.mk
 include bench/bench.mk
 include $(wildcard precision/*.mk stability/*.mk)
 # after the includes, each of which may add to the list

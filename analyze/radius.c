@@ -7,6 +7,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include "frames.h"
+#include "measure.h"
 #include "options.h"
 #include "radius.h"
 #include "verbs.h"
@@ -41,29 +42,6 @@ static void set_keep(struct settings *s) {
         "--keep %s: expected nominal, contact-mean, touching or fraction=F "
         "with F above 0%s",
         text, s->sum ? "" : " and below 1");
-}
-
-static int add_wall(const struct option_list *v, void *scene) {
-  return scene_add_wall(scene, v->at, v->at + 3);
-}
-
-static struct scene read_walls(const struct bed_header *h) {
-  struct scene s = {0};
-  struct option_spec wall = {.name = "wall",
-                             .type = OPTION_LIST,
-                             .least = 6,
-                             .most = 6,
-                             .unit = "a point and a normal",
-                             .each = add_wall,
-                             .context = &s};
-  for (size_t k = 0; k < h->count; k++) {
-    const char *want = strcmp(h->at[k].name, "wall")
-                           ? NULL
-                           : option_set(&wall, h->at[k].value);
-    if (want)
-      die(EXIT_INPUT, "wall=%s: expected %s", h->at[k].value, want);
-  }
-  return s;
 }
 
 /* The radius of a choice; NaN if there is none. */
@@ -128,13 +106,16 @@ static void print_report(const struct settings *s, const struct scene *walls,
 }
 
 /* Rewrites the frame and says what that did. */
-static void rewrite(const struct settings *s, const struct scene *walls,
-                    struct bed *b, struct bed_header *h, double nominal,
-                    bool quiet) {
+static void rewrite(const struct settings *s, const struct frames *f,
+                    const struct scene *walls, struct bed *b,
+                    struct bed_header *h, double nominal, bool quiet) {
   const double was = b->r[0], r = choose(s, s->keep, walls, b, nominal);
-  if (isnan(r))
-    die(EXIT_INPUT, "t=%g: --keep %s: there is no such radius", b->t,
-        s->keep_text);
+  if (isnan(r)) {
+    char why[80];
+    snprintf(why, sizeof why, "there is no radius for --keep %.40s",
+             s->keep_text);
+    frame_refuse(f, b, why);
+  }
   if (radius_rewrite(b, h, r, s->keep == NOMINAL ? NULL : s->keep_text) !=
       GSL_SUCCESS)
     die(EXIT_IO, "out of memory");
@@ -161,15 +142,13 @@ static struct bed_header copy_header(const struct bed_header *from) {
 }
 
 /* The radius that the dynamics had, all spheres of one. */
-static double nominal_radius(const struct bed *b, const struct bed_header *h) {
+static double nominal_radius(const struct frames *f, const struct bed *b) {
   for (size_t i = 1; i < b->n; i++)
     if (b->r[i] != b->r[0])
-      die(EXIT_INPUT, "t=%g: radii %g and %g: expected spheres of one radius",
-          b->t, b->r[0], b->r[i]);
-  const double r = radius_dynamics(h);
+      frame_refuse(f, b, "spheres of several radii, expected one radius");
+  const double r = radius_dynamics(frames_header(f));
   if (r < 0)
-    die(EXIT_INPUT, "radius_dynamics=%s: expected a number above 0",
-        bed_header_get(h, "radius_dynamics"));
+    frame_refuse(f, b, "radius_dynamics: expected a number above 0");
   return r > 0 ? r : b->r[0];
 }
 
@@ -230,8 +209,8 @@ int verb_radius(int argc, char **argv) {
   frames_open(&frames, &input, argc, argv, operand);
   for (bool first = true; frames_next(&frames, &bed); first = false) {
     struct bed_header header = copy_header(frames_header(&frames));
-    struct scene walls = read_walls(&header);
-    const double nominal = nominal_radius(&bed, &header);
+    struct scene walls = frame_scene(&frames, &bed);
+    const double nominal = nominal_radius(&frames, &bed);
     if (report) {
       if (first)
         puts("t\tkeep\tradius\tsum\tunion\toverlaps\tmean_overlap\t"
@@ -240,7 +219,7 @@ int verb_radius(int argc, char **argv) {
         putchar('\n');
       print_report(&s, &walls, &bed, nominal);
     } else {
-      rewrite(&s, &walls, &bed, &header, nominal, input.quiet);
+      rewrite(&s, &frames, &walls, &bed, &header, nominal, input.quiet);
       if (!first)
         bed_write_gap(stdout);
       bed_write_frame(stdout, &header, &bed, turns(&bed));

@@ -206,9 +206,9 @@ check "restart says so" grep -q '^settle: .*radius_dynamics=0.1' "$T/err"
 sed 's/^# radius_dynamics=.*/# radius_dynamics=no/' "$T/re" >"$T/bad"
 run settle --quiet --scene "$T/bad" --time 1.01
 check "restart: a bad key" test "$status" = 3
-refuse "radius: a bad key" 3 'radius_dynamics=no' radius "$T/bad"
+refuse "radius: a bad key" 3 'radius_dynamics: expected' radius "$T/bad"
 refuse "radius: of two sizes" 3 'one radius' radius "$T/radii"
-refuse "radius: none" 3 'no such radius' radius --keep touching "$T/one"
+refuse "radius: none" 3 'no radius for --keep touching' radius --keep touching "$T/one"
 refuse "radius: unknown" 2 '--keep loose: expected nominal' radius --keep loose "$T/one"
 refuse "radius: all of it" 2 'below 1' radius --keep fraction=1 "$T/one"
 refuse "radius: nothing" 2 'above 0' radius --keep fraction=0 "$T/one"
