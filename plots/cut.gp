@@ -58,12 +58,12 @@ set yrange [1e-15:1e-6]
 set xlabel "evaluations, RK8PD"
 set ylabel "error of the speed"
 set key at screen 0.5,0.01 center bottom vertical maxrows 3
-cases = "none:0.1 none:0.2 shift:0.1 c1:0.1 c2:0.1"
-part(c, i) = word(system("echo '".c."' | tr : ' '"), i)
+case_tapers = "none none shift c1 c2"
+case_lmaxes = "0.1 0.2 0.1 0.1 0.1"
 case_colours = blue." ".purple." ".orange." ".green." ".black
 case_titles = "'cut, 0.1 m' 'cut, 0.2 m' 'shifted, 0.1 m' 'C^1 taper, 0.1 m' 'C^2 taper, 0.1 m'"
-plot for [i=1:5] ARG1 using (of("rk8pd", part(word(cases, i), 1), \
-    part(word(cases, i), 2)) ? column("evaluations") : NaN): \
+plot for [i=1:5] ARG1 using (of("rk8pd", word(case_tapers, i), \
+    word(case_lmaxes, i)) ? column("evaluations") : NaN): \
     (column("error_velocity") > 0 ? column("error_velocity") : NaN) \
     with linespoints lw line pt int(word("13 13 7 5 9", i)) ps symbol \
     lc rgb word(case_colours, i) title word(case_titles, i)
