@@ -123,11 +123,11 @@ $(foreach s,$(STEPPED),$(eval SET_$(s)-steps := $(SET_$(s)))\
 PRECISION_SETS += $(STEPPED:%=%-steps)
 
 YLABEL_time := error of time (s)
-YLABEL_energy := error of energy by it
+YLABEL_energy := relative error of energy
 YLABEL_gap := error of gap (m)
 YLABEL_velocity := error of velocity (m/s)
-YLABEL_speed := error of speed by that before
-YLABEL_eigenvalue := drift of eigenvalues by the largest
+YLABEL_speed := relative error of speed
+YLABEL_eigenvalue := relative drift of eigenvalues
 XLABEL_evaluations := evaluations
 XLABEL_cpu_seconds := CPU time (s)
 XLABEL_step := step (s)
