@@ -141,6 +141,7 @@ include plots/figures.mk
 include plots/structure.mk
 include plots/analysis.mk
 include bench/bench.mk
+include docs/pages.mk
 include $(wildcard precision/*.mk stability/*.mk)
 # after the includes, each of which may add to the list
 stability: $(STABILITY_FIGURES) ## where methods fail: every chart and table of it (QUICK=1: small ones)
