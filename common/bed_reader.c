@@ -283,7 +283,7 @@ int columns_add(struct bed_reader *r, enum column c) {
 int columns_check(struct bed_reader *r) {
   if (!r->has[X] || !r->has[Y] || !r->has[Z])
     return reader_fail(r, "columns x, y and z are expected");
-  if (!r->has[R] && !r->has[D] && !(r->default_radius > 0))
+  if (!r->has[R] && !r->has[D] && r->default_radius == 0)
     return reader_fail(r, "the spheres have no radius: expected a column "
                           "radius or diameter, or --radius");
   return GSL_SUCCESS;

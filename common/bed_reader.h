@@ -45,8 +45,9 @@ struct bed_reader {
   bool may_be_table, table; /* no bed but names of columns and rows */
   bool walls_stale;         /* the next wall line begins a new set */
   bool complete;            /* the status line was read */
-  bool named; /* column names or a time were read since the last frame, */
-  bool timed; /* so there must be rows */
+  bool named;               /* column names were read since the last frame, */
+  bool timed;               /* or a time, so there must be rows; */
+  bool apart;               /* a blank line came since that time */
 };
 
 /* Puts "name:line: ..." into the error and returns GSL_EINVAL. */

@@ -31,15 +31,15 @@ static int read_key(struct bed_reader *r, char *text) {
     return reader_fail(r, "more than %d keys", MOST_KEYS);
   if (!strcmp(name, "format") && strcmp(value, "bed-1"))
     return reader_fail(r, "format=%s: expected bed-1", value);
-  if (!strcmp(name, "radius") &&
-      (!parse_double(value, &r->default_radius) || !(r->default_radius > 0)))
+  if (!strcmp(name, "radius") && !parse_double(value, &r->default_radius))
     return reader_fail(r, "radius=%s: expected a number above 0", value);
   if (!strcmp(name, "t")) {
     if (!parse_double(value, &r->t))
       return reader_fail(r, "t=%s: expected a finite number", value);
-    if (r->timed)
+    if (r->timed && r->apart)
       return reader_fail(r, "t=%s: no spheres since the t before", value);
     r->timed = true;
+    r->apart = false;
   }
   if (!strcmp(name, "status"))
     r->complete = true;
@@ -77,7 +77,7 @@ static int read_names(struct bed_reader *r, const char *line) {
                           "LAMMPS dump or an XYZ file");
   columns_clear(r, r->table ? separator_of(line) : BLANKS);
   r->decimal_comma = r->separator == ';' || r->separator == '\t';
-  if (!r->table && !(r->default_radius > 0))
+  if (!r->table && r->default_radius == 0)
     r->default_radius = default_radius;
   size_t length = 0;
   int status = GSL_SUCCESS;
@@ -158,6 +158,7 @@ int read_bed(struct bed_reader *r, struct bed *b) {
         return finish_frame(r, b);
       if (r->named)
         return reader_fail(r, "no spheres in the frame that ends here");
+      r->apart = true;
     } else if (r->complete) {
       return reader_fail(r, "more after the line of the status");
     } else if (*line == '#') {

@@ -264,6 +264,12 @@ static void test_defaults(void) {
   f = read_text(text, strlen(text), &o);
   CHECK(f.status == GSL_EOF && f.count == 1 && f.bed[0].r[0] == 2);
   free_frames(&f);
+  /* the last of a header's times, and of its radii, which rows may have */
+  text = "# t=4\n# radius=-1\n# t=5\nx\ty\tz\tr\n1\t2\t3\t4\n# status=ok\n";
+  f = read_text(text, strlen(text), &o);
+  CHECK(f.status == GSL_EOF && f.count == 1 && f.bed[0].r[0] == 4 &&
+        f.bed[0].t == 5);
+  free_frames(&f);
   text = "# t = 5\nx\ty\tz\n1\t2\t3\n# status = ok \n";
   f = read_text(text, strlen(text), &o);
   CHECK(f.status == GSL_EOF && f.count == 1 && f.bed[0].r[0] == 0.3 &&
@@ -343,6 +349,8 @@ static const struct refused {
     /* beds */
     {"# format=bed-1\nx\ty\tz\tcolour\n1\t2\t3\t4\n# status=ok\n", 2, "colour"},
     {"# t=1\nx\ty\tz\n1\t2\t3\n", 3, "status=ok"},
+    {"# radius=-1\nx\ty\tz\n1\t2\t3\n# status=ok\n", 3, "radius -1"},
+    {"# radius=2m\nx\ty\tz\n1\t2\t3\n# status=ok\n", 1, "radius=2m"},
     {"# t=1\nx\ty\tz\n1\t2\t3\n\n\n# t=2\nx\ty\tz\n# status=ok\n", 8,
      "no spheres"},
     {"# t=1\nx\ty\tz\n1\t2\t3\n\n\n# t=2\n# status=ok\n", 7, "no spheres"},
