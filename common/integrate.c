@@ -237,7 +237,7 @@ const double *integrate_derivative(const struct integrator *it) {
 }
 
 int integrate_limits(const char *method, struct stiffness_limits *l) {
-  const gsl_odeiv2_step_type *type = find_method(method);
+  const gsl_odeiv2_step_type *type = integrate_step_type(method);
   if (!type || type == rkc || type == gsl_odeiv2_step_msbdf)
     return GSL_EINVAL;
   if (type != verlet)
