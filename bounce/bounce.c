@@ -128,8 +128,9 @@ static void watch_step(struct watch *w) {
   const double rounding = 4 * GSL_DBL_EPSILON * w->first;
   if (!w->told && (gain > 0.01 * scale + rounding || lost)) {
     w->told = true;
-    warn("t=%.6g: %.3g J %s: steps too long (docs/stability.md, \"Energy\")", t,
-         lost ? loss : gain,
+    warn("t=%.6g: %.3g J %s: a smaller --tol or --step is needed "
+         "(docs/stability.md, \"Energy\")",
+         t, lost ? loss : gain,
          lost ? "are lost where none can be (e = 1)" : "came from nowhere");
   }
 }

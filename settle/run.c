@@ -217,7 +217,8 @@ int run(const struct settings *s, struct bed *b,
   const int code = integrate_all(&r, reason, sizeof reason);
   if (r.show)
     fputs("\r\033[K", stderr);
-  watch_end(r.watch);
+  if (code != EXIT_INTEGRATION)
+    watch_end(r.watch);
   const double t_end = GSL_MIN(integrate_time(r.motion.integrator), s->time);
   /* ended before the last frame: the state reached is one more */
   if (r.frames < s->frames) {

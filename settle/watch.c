@@ -24,8 +24,8 @@ static const double energy_share = 0.01;
 static const double gross_share = 0.1;
 
 /* A fixed step beyond the limit for more than this share of the time makes
-   another bed: measured with verlet, the fraction moves by less than its error
-   over seeds at 0.26 (2.5e-5 s) and by 0.006 at 0.93 (1e-4 s). */
+   another bed: measured with verlet, six seeds, the union moves by 0.0004 at a
+   share of 0.26 (2.5e-5 s), 0.0015 at 0.94 (5e-5 s), 0.003 at 7e-5 s. */
 static const double beyond_share = 0.5;
 
 /* So many power iterations, and a survey of the contacts, every so many
@@ -75,6 +75,7 @@ struct watch {
   struct dynamics_survey survey;
   double deepest;
   size_t deep_steps;
+  bool told_overlap;
   struct energy energy;
 };
 
@@ -132,9 +133,9 @@ static void check_cut(struct watch *w) {
     return;
   say(w,
       "the cut at --lmax %g leaves errors of %.2g %s, more than the tolerance "
-      "%.2g; --lmax %.2g would do (docs/stability.md, \"The cut at lmax\")",
+      "%.2g; --lmax %g would do (docs/stability.md, \"The cut at lmax\")",
       c->lmax, error, paper ? "m/s^2" : "m/s", tol,
-      c->lmax + 0.005 + log(error / tol) / c->kappa);
+      ceil(100 * (c->lmax + log(error / tol) / c->kappa)) / 100);
 }
 
 /* --- stiffness -------------------------------------------------------------*/
@@ -244,14 +245,14 @@ static void tell_energy(struct watch *w) {
     e->told = true;
     say(w,
         "t=%.6g: %.3g J came from nowhere, %.3g %% of the spheres' energy: "
-        "steps too long (docs/stability.md, \"Energy\")",
+        "a smaller --tol or --step is needed (docs/stability.md, \"Energy\")",
         w->time, e->last - e->lowest, 100 * e->share);
   } else if (e->conserved && loss > energy_share) {
     e->told = true;
     say(w,
         "t=%.6g: %.3g J are lost, %.3g %% of the spheres' energy, where none "
-        "can be (e = 1, no friction): steps too long (docs/stability.md, "
-        "\"Energy\")",
+        "can be (e = 1, no friction): a smaller --tol or --step is "
+        "needed (docs/stability.md, \"Energy\")",
         w->time, e->first - e->last, 100 * loss);
   }
 }
@@ -286,6 +287,17 @@ static void survey(struct watch *w, const double *y) {
   w->next_survey = own_evaluations(w) + SURVEY_EVERY;
 }
 
+static void tell_overlap(struct watch *w) {
+  const struct dynamics_survey *v = &w->survey;
+  if (w->told_overlap || !(v->overlap > deep_overlap))
+    return;
+  w->told_overlap = true;
+  say(w,
+      "t=%.6g: sphere %ld overlaps by %.2f radii, more than %g: too soft for "
+      "its load, or steps too long (docs/stability.md, \"Penetration\")",
+      w->time, w->bed->id[v->sphere], v->overlap, deep_overlap);
+}
+
 static bool step_contacts(struct watch *w, char *reason, size_t size) {
   const double *y = integrate_state(w->motion->integrator);
   if (own_evaluations(w) >= w->next_survey ||
@@ -297,11 +309,8 @@ static bool step_contacts(struct watch *w, char *reason, size_t size) {
              w->bed->id[v->outsider], -v->inside, v->wall + 1);
     return false;
   }
-  if (v->overlap > deep_overlap && w->deep_steps++ == 0)
-    say(w,
-        "t=%.6g: sphere %ld overlaps by %.2f radii, more than %g: too soft for "
-        "its load, or steps too long (docs/stability.md, \"Penetration\")",
-        w->time, w->bed->id[v->sphere], v->overlap, deep_overlap);
+  w->deep_steps += v->overlap > deep_overlap;
+  tell_overlap(w);
   tell_energy(w);
   return true;
 }
@@ -334,6 +343,7 @@ struct watch *watch_start(const struct settings *s, const struct bed *b,
   }
   check_cut(w);
   survey(w, integrate_state(m->integrator));
+  tell_overlap(w);
   return w;
 }
 

@@ -26,7 +26,8 @@ bool watch_step(struct watch *w, char *reason, size_t size);
 /* Evaluations of the right-hand side that were the watch's own. */
 size_t watch_evaluations(const struct watch *w);
 
-/* What can be said at the end only, and what goes to --stats. */
+/* What can be said at the end only, of a run that did not fail, and what goes
+   to --stats. */
 void watch_end(struct watch *w);
 void watch_stats(const struct watch *w, FILE *out);
 void watch_free(struct watch *w);

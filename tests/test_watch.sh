@@ -1,0 +1,210 @@
+#!/bin/bash
+# What settle and bounce say of a run that goes wrong, made to go wrong here,
+# and that they say nothing of a good one. Run from the root of the repository;
+# B is the directory of the programs.
+set -u
+B=${B:-build}
+passed=0 failed=0
+T=$(mktemp -d) || exit 1
+trap 'rm -rf "$T"' EXIT
+export LC_ALL=C
+
+run() { # PROGRAM ARGUMENT...: into $T/out, $T/err, $T/stats and $status
+  said="$*"
+  rm -f "$T/stats"
+  local stats=()
+  [[ $1 == settle ]] && stats=(--stats "$T/stats")
+  timeout 60 "$B/$1" "${@:2}" "${stats[@]}" >"$T/out" 2>"$T/err" </dev/null
+  status=$?
+}
+
+check() { # NAME CONDITION...: after a run
+  local name=$1
+  shift
+  if "$@"; then
+    passed=$((passed + 1))
+  else
+    failed=$((failed + 1))
+    echo "failed: $said: $name; exit status $status" >&2
+    head -n 5 "$T/err" >&2
+  fi
+}
+
+key() { # NAME CONDITION: of the statistics, in terms of x
+  check "$1: $2" awk -F '\t' -v name="$1" \
+    '$1 == name {found = 1; x = $2; if (x ~ /nan|inf/ || !('"$2"')) bad = 1}
+     END {exit bad || !found}' "$T/stats"
+}
+
+silent() {
+  check 'exit status' test $status = 0
+  check 'nothing said' test ! -s "$T/err"
+  [[ ! -e $T/stats ]] || key warnings 'x == 0'
+}
+
+warns() { # COUNT PATTERN...: so many lines, each pattern in just one of them
+  local lines=$1
+  shift
+  check "$lines lines" test "$(wc -l <"$T/err")" = "$lines"
+  for pattern; do
+    check "'$pattern' once" test "$(grep -Ec -e "$pattern" "$T/err")" = 1
+  done
+}
+
+warned() { # COUNT PATTERN...: and the run is done
+  check 'exit status' test $status = 0
+  warns "$@"
+  [[ ! -e $T/stats ]] || key warnings "x == $1"
+}
+
+page() { # NAME: as a warning ends
+  echo "\(docs/stability.md, \"$1\"\)\$"
+}
+
+mark() { tail -n 1 "$T/out" | cut -d : -f 1; }
+
+narrow=(--count 24 --base 0.5,0.5 --drop 0)
+elastic=("${narrow[@]}" --model basic --restitution 1)
+
+# --- good runs say nothing ----------------------------------------------------
+run settle
+silent
+key stages_mean 'x > 2 && x < 20'
+key stages_most 'x > 10 && x <= 400'
+key power_evaluations 'x > 100'
+key spectral_radius 'x > 1e3 && x < 1e6'
+key spectral_radius_largest 'x > 5e4 && x < 1e6'
+key overlap_deepest 'x > 0.2 && x < 0.5'
+key steps_with_deep_overlap 'x == 0'
+key energy_gain 'x < 1'
+key cut_error 'x > 5.5e-8 && x < 5.7e-8' # sqrt(10/300) exp(-15)
+for seed in 2 3; do
+  run settle --seed $seed --time 2
+  silent
+done
+for model in basic friction; do
+  run settle --model $model --time 1
+  silent
+done
+run settle --method merson --time 0.5
+silent
+key watch_evaluations 'x > 0 && x < 80'
+run settle "${narrow[@]}" --method verlet --step 2e-5 --time 0.6
+silent
+key stiffness_ratio 'x > 0.05 && x < 1'
+run settle "${elastic[@]}" --time 1
+silent
+run settle "${narrow[@]}" --model basic --kappa 500 --time 0.6
+silent
+run settle --count 4 --time 0.4 --method msbdf
+silent
+run settle --count 1 --time 0
+silent
+run settle --count 1 --gravity 0 --time 1
+silent
+for options in '' --rebound '--restitution 0.4' '--method dopri5' \
+  '--method rkc --tol 5e-4 --restitution 0.5' '--method verlet --step 1e-4' \
+  '--hinit 1e-12 --time 0.1' '--height 1e-6' '--method msbdf'; do
+  # shellcheck disable=SC2086
+  run bounce $options
+  silent
+done
+
+# --- stability sets the steps ------------------------------------------------
+run settle "${narrow[@]}" --method merson --time 1
+warned 1 "stability, .* [67][0-9] % .*friction.*--method rkc.*$(page 'Stability limits')"
+key stiffness_ratio 'x > 0.8 && x < 1.1'
+key h_rho_median 'x > 2.8 && x < 3.9'
+key h_rho_limit 'x > 3.5 && x < 3.6' # merson, real axis
+key steps_at_limit 'x > 0.5 && x < 1'
+key time_at_limit 'x > 0.5 && x < 1'
+share=$(awk -F '\t' '{s[$1] = $2}
+  END {print s["watch_evaluations"] / s["rhs_evaluations"]}' "$T/stats")
+check "watching costs $share" awk "BEGIN {exit !($share > 0 && $share < 0.01)}"
+run settle "${narrow[@]}" --method dopri5 --control standard --tol 1e-5 --time 0.6
+warned 1 "--method rkc.*$(page 'Stability limits')"
+run bounce --restitution 0.1 --control paper --tol 1 --time 30 --psi 1000
+warned 1 "--method rkc.*$(page 'Stability limits')"
+
+# --- a fixed step beyond what friction allows ---------------------------------
+run settle "${narrow[@]}" --method verlet --step 4e-4 --time 1
+warned 1 "--step 0.0004 was beyond .*friction.*limit 2.*$(page 'Wrong beds')"
+key time_beyond_limit 'x > 0.5'
+run settle "${narrow[@]}" --method verlet --step 4e-4 --time 1 --model basic
+silent
+
+# --- penetration, and the cut at lmax -----------------------------------------
+run settle "${narrow[@]}" --kappa 30 --time 0.6
+warned 2 "sphere [0-9]+ overlaps by 0.5.* more than 0.5.*$(page Penetration)" \
+  "lmax 0.1 leaves errors of 0.02 m/s,.*tolerance 0.0005.*$(page 'The cut at lmax')"
+key overlap_deepest 'x > 0.5 && x < 1.5'
+key steps_with_deep_overlap 'x > 10'
+# its centre passes the floor, softly: that is no failure
+run settle --count 1 --kappa 30 --lmax 0.3 --drop 3 --time 0.9
+warned 1 "overlaps.*$(page Penetration)"
+key overlap_deepest 'x > 1'
+# what it advises is enough
+for options in '--kappa 30' '--control standard --tol 1e-9' \
+  '--method merson --tol 1e-6' '--kappa 60 --f0 50 --reltol 1e-5'; do
+  # shellcheck disable=SC2086
+  run settle --count 1 --time 0.1 $options
+  warned 1 "$(page 'The cut at lmax')"
+  enough=$(sed -n 's/.*; --lmax \([^ ]*\) would do.*/\1/p' "$T/err")
+  # shellcheck disable=SC2086
+  run settle --count 1 --time 0.1 $options --lmax "$enough"
+  silent
+  less=$(awk "BEGIN {print $enough - 0.011}")
+  # shellcheck disable=SC2086
+  run settle --count 1 --time 0.1 $options --lmax "$less"
+  warned 1 "$(page 'The cut at lmax')"
+done
+
+# --- a bed that begins half in a wall ------------------------------------------
+"$B/settle" --count 8 --time 0 >"$T/start"
+awk -F '\t' -v OFS='\t' '/^[0-9]/ && !done {$4 = 0.03; done = 1} {print}' \
+  "$T/start" >"$T/half"
+run settle --scene "$T/half" --time 0.02
+warned 1 "t=0: sphere 0 overlaps by 0.70 radii.*$(page Penetration)"
+
+# --- energy -------------------------------------------------------------------
+run settle "${elastic[@]}" --method rkc --step 2e-3 --time 1
+warned 1 "J came from nowhere.*$(page Energy)"
+key energy_gain 'x > 1'
+run settle "${elastic[@]}" --method merson --step 4e-3 --time 1
+warned 1 "J are lost.*e = 1.*$(page Energy)"
+run bounce --method rkc --tol 1
+warned 1 "J came from nowhere.*$(page Energy)"
+run bounce --method merson --step 1e-3
+warned 1 "J are lost.*$(page Energy)"
+
+# --- through a wall -------------------------------------------------------------
+run settle "${narrow[@]}" --step 0.2 --method verlet --time 2
+check 'exit status' test $status = 4
+warns 1 "sphere [0-9]+ is .* m outside wall [1-5]; .*$(page 'Missed collisions')"
+check mark test "$(mark)" = '# status=failed at t=0.2'
+key exit_status 'x == 4'
+key energy_gain 'x > 1e6'
+check 'last frame' test "$(grep -c '^[0-9]' "$T/out")" = 24
+run settle --count 1 --drop 3 --travel 0 --tol 1e4 --control standard \
+  --method merson
+check 'exit status' test $status = 4
+check 'a wall' grep -Eq "outside wall.*$(page 'Missed collisions')" "$T/err"
+run settle --count 1 --drop 3 --tol 1e-3 --control standard --method merson \
+  --time 1 # the limit of travel prevents it
+silent
+run settle --count 1 --drop 0.5 --time 3 --step 0.3 --method merson
+check 'exit status' test $status = 4
+warns 1 "t=0.3: forces overflow with this --step; .*$(page 'Missed collisions')"
+run bounce --method verlet --step 1e-2
+check 'exit status' test $status = 4
+warns 1 "the sphere is .* below the floor, expected at most 0.0518 m .*$(page 'Missed collisions')"
+
+# --- threads change nothing that is said ---------------------------------------
+for threads in 1 2; do
+  run settle "${narrow[@]}" --method merson --time 0.6 --threads $threads
+  grep -Ev 'seconds|threads|memory' "$T/stats" >"$T/stats$threads"
+done
+check 'the same statistics' cmp "$T/stats1" "$T/stats2"
+
+echo "$passed passed, $failed failed"
+((failed == 0))
