@@ -40,12 +40,13 @@ SET_bounce-500-inelastic := bounce --kappa 500 --restitution 0.70710678118654757
 TITLE_bounce-30-inelastic := Rebound, κ = 30 m^{-1}, e^2 = 1/2
 TITLE_bounce-150-inelastic := Rebound, κ = 150 m^{-1}, e^2 = 1/2
 TITLE_bounce-500-inelastic := Rebound, κ = 500 m^{-1}, e^2 = 1/2
-# The last elastic one again, no step further than 1/κ: what keeps loose steps from ending
-# deep in the wall, and what that costs
+# The last elastic one again, no step further than 1/κ: what keeps loose steps
+# from ending deep in the wall, and what that costs
 SET_bounce-500-capped := bounce --kappa 500 --travel 1
 TITLE_bounce-500-capped := Rebound, κ = 500 m^{-1}, e = 1, travel of 1/κ
 METHODS_bounce-500-capped = $(ADAPTIVE)
-BOUNCES := bounce-500-capped $(foreach k,30 150 500,bounce-$(k) bounce-$(k)-inelastic)
+BOUNCES := bounce-500-capped $(foreach k,30 150 500,\
+  bounce-$(k) bounce-$(k)-inelastic)
 $(foreach b,$(BOUNCES),$(eval STEP_$(b) := 4e-4)\
   $(eval ERRORS_$(b) := time energy)$(eval ORDERS_$(b) := 2 5))
 
@@ -116,10 +117,16 @@ PRECISION_SETS := $(BOUNCES) collision restitution restitution-fast $(TODAS) \
 
 # The same with fixed steps for all: what order is left
 STEPPED := rolling transition $(LAWS)
-$(foreach s,$(STEPPED),$(eval SET_$(s)-steps := $(SET_$(s)))\
-  $(eval STEP_$(s)-steps := $(or $(STEADY_$(s)),$(STEP_$(s))))$(eval ERRORS_$(s)-steps := $(ERRORS_$(s)))\
-  $(eval METHODS_$(s)-steps := $(FIXED))$(eval ORDERS_$(s)-steps := $(ORDERS_$(s)))\
-  $(eval TITLE_$(s)-steps := $(TITLE_$(s)))$(eval FIXED_$(s)-steps := yes))
+define stepped_set
+SET_$(1)-steps := $$(SET_$(1))
+STEP_$(1)-steps := $$(or $$(STEADY_$(1)),$$(STEP_$(1)))
+METHODS_$(1)-steps := $$(FIXED)
+FIXED_$(1)-steps := yes
+ERRORS_$(1)-steps := $$(ERRORS_$(1))
+ORDERS_$(1)-steps := $$(ORDERS_$(1))
+TITLE_$(1)-steps := $$(TITLE_$(1))
+endef
+$(foreach s,$(STEPPED),$(eval $(call stepped_set,$(s))))
 PRECISION_SETS += $(STEPPED:%=%-steps)
 
 YLABEL_time := error of time (s)
@@ -183,13 +190,14 @@ PRECISION_FIGURES := \
   $(patsubst %,$(PRECISION_OUT)/precision-%.svg,$(or $(QUICK_FIGURES),\
     $(PRECISION_CHARTS))) \
   $(PRECISION_OUT)/precision-work.md $(PRECISION_OUT)/precision-orders.md
+PRECISION_BY_STEP := $(filter %-steps,$(PRECISION_SETS))
 $(PRECISION_OUT)/precision-work.md: precision/work.awk precision/precision.mk \
   $(patsubst %,$(PRECISION_DATA)/%.tsv,$(filter-out %-steps,$(PRECISION_SETS)))
 	@mkdir -p $(@D)
 	awk -f $(filter %.awk %.tsv,$^) > $@
-$(PRECISION_OUT)/precision-orders.md: precision/orders.awk precision/precision.mk \
-  $(patsubst %,$(PRECISION_DATA)/%.tsv,$(filter $(STEPPED) $(STEPPED:%=%-steps),\
-  $(PRECISION_SETS)))
+$(PRECISION_OUT)/precision-orders.md: precision/orders.awk \
+  precision/precision.mk $(patsubst %,$(PRECISION_DATA)/%.tsv,\
+    $(PRECISION_BY_STEP:%-steps=%) $(PRECISION_BY_STEP))
 	@mkdir -p $(@D)
 	awk -f $(filter %.awk %.tsv,$^) > $@
 

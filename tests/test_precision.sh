@@ -70,7 +70,8 @@ for set in collision:gap:4 exponential:gap:4 toda-6:eigenvalue:4 \
   near "$name, verlet: halved step" "$(awk \
     -v a="$(value $name verlet -2 error_$error)" \
     -v b="$(value $name verlet -1 error_$error)" 'BEGIN {print a / b}')" \
-    "$(awk "BEGIN {print 0.8 * $factor}")" "$(awk "BEGIN {print 1.3 * $factor}")"
+    "$(awk "BEGIN {print 0.8 * $factor}")" \
+    "$(awk "BEGIN {print 1.3 * $factor}")"
 done
 # symmetric in time: v0 again, and again as much energy, but for rounding in
 # each step
@@ -131,8 +132,8 @@ gnuplot -c plots/precision.gp "$T/failed.tsv" "$T/failed.svg" title step \
   error_time step error
 check 'a failure is drawn' grep -q 'failed' "$T/failed.svg"
 
-for arguments in '' bounce '--rung 1e-3 bounce' 'nosuch --rung 1e-3' 'bounce --rung 0x' \
-  'bounce --method msbdf --step-rung 1e-3' 'bounce --method verlet --rung 1'; do
+for arguments in '' bounce '--rung 1e-3 bounce' 'nosuch --rung 1e-3' \
+  'bounce --rung 0x' 'bounce --method msbdf --step-rung 1e-3' 'bounce --method verlet --rung 1'; do
   "$B/precision" $arguments >/dev/null 2>"$T/err"
   check "precision $arguments: exit status" test $? = 2
 done
