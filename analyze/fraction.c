@@ -10,6 +10,7 @@
 #include <gsl/gsl_math.h>
 #include "files.h"
 #include "frames.h"
+#include "measure.h"
 #include "options.h"
 #include "verbs.h"
 #include "volume.h"
@@ -19,8 +20,12 @@ struct boxes {
   double (*at)[6];
 };
 
+static double box_volume(const double b[6]) {
+  return (b[1] - b[0]) * (b[3] - b[2]) * (b[5] - b[4]);
+}
+
 static bool box_good(const double b[6]) {
-  const double volume = (b[1] - b[0]) * (b[3] - b[2]) * (b[5] - b[4]);
+  const double volume = box_volume(b);
   return b[1] > b[0] && b[3] > b[2] && b[5] > b[4] && volume > 0 &&
          isfinite(volume);
 }
@@ -99,10 +104,24 @@ static void print_names(const struct columns *c) {
          c->sampled ? "\tsampled_sum\tsampled_union" : "");
 }
 
+/* A clipped ball is a sum of parts of its own size, and rounding of those is
+   all that is left where the box is this much smaller than the largest ball's
+   cube: six digits and fewer. */
+static const double smallest_box = 1e-9;
+
+static void check_sizes(const struct frames *f, const struct bed *bed,
+                        const struct boxes *boxes) {
+  double largest = 0;
+  for (size_t i = 0; i < bed->n; i++)
+    largest = GSL_MAX(largest, bed->r[i]);
+  for (size_t k = 0; k < boxes->count; k++)
+    if (box_volume(boxes->at[k]) < smallest_box * gsl_pow_3(largest))
+      frame_refuse(f, bed, "a box too small beside a sphere for its volume");
+}
+
 static void print_row(const struct bed *bed, const double box[6],
                       const struct columns *c) {
-  const double volume =
-      (box[1] - box[0]) * (box[3] - box[2]) * (box[5] - box[4]);
+  const double volume = box_volume(box);
   double united, sampled_sum, sampled_union;
   int status = volume_union(bed->n, bed->x, bed->r, box, &united);
   if (status == GSL_SUCCESS && c->sampled)
@@ -180,6 +199,7 @@ int verb_fraction(int argc, char **argv) {
   struct bed bed = {0};
   frames_open(&frames, &input, argc, argv, operand);
   for (bool first = true; frames_next(&frames, &bed); first = false) {
+    check_sizes(&frames, &bed, &boxes);
     if (first)
       print_names(&columns);
     else if (columns.box)

@@ -98,6 +98,8 @@ check "void beside sampled" names 't\tsum\tunion\tvoid\tsampled_sum\tsampled_uni
 
 boxes() { printf '%b' "$1" >"$T/bad"; }
 boxes '0 1 0 1 0 1\n0 1 0 1 0\n'
+printf 'x,y,z,r\n0.5,0.5,0.5,1e9\n' > "$T/huge"
+refuse "a sphere too large for the box" 3 'too small' "$T/huge"
 refuse "boxes: five numbers" 3 'bad:2: expected six' --boxes "$T/bad" "$T/one"
 boxes '0 1 0 1 0 1 1\n'
 refuse "boxes: seven numbers" 3 'bad:1: expected six' --boxes "$T/bad" "$T/one"
