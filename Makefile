@@ -50,6 +50,9 @@ $(O)/%.o: %.c $(B)/flags
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) -MMD -MP -c $< -o $@
 
+# Their inner loops are roots, which errno would keep from being vectorized.
+$(O)/common/ball_cell.o $(O)/common/voxels.o: ALL_CFLAGS += -fno-math-errno
+
 $(KERNEL_OBJECTS): $(O)/common/kernel_%.o: common/kernel.c $(B)/flags
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) $(KERNEL_CFLAGS) $(MARCH_$*) -DKERNEL_ISA=$* \

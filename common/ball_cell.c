@@ -28,35 +28,38 @@
 #include "multiversion.h"
 #include "volume.h"
 
-static int fill(size_t n, double *node, double *weight) {
-  gsl_integration_glfixed_table *t = gsl_integration_glfixed_table_alloc(n);
-  if (!t)
-    return GSL_ENOMEM;
-  for (size_t i = 0; i < n; i++)
-    gsl_integration_glfixed_point(0, 1, i, &node[i], &weight[i], t);
-  gsl_integration_glfixed_table_free(t);
+static const size_t points[BALL_CELL_RULES] = {8, 12, 16};
+
+int ball_cell_init(struct ball_cell *q) {
+  for (int i = 0; i < BALL_CELL_RULES; i++) {
+    gsl_integration_glfixed_table *t =
+        gsl_integration_glfixed_table_alloc(points[i]);
+    if (!t)
+      return GSL_ENOMEM;
+    for (size_t k = 0; k < points[i]; k++)
+      gsl_integration_glfixed_point(0, 1, k, &q->rule[i].node[k],
+                                    &q->rule[i].weight[k], t);
+    gsl_integration_glfixed_table_free(t);
+  }
   return GSL_SUCCESS;
 }
 
-int ball_cell_init(struct ball_cell *q) {
-  const int status = fill(BALL_CELL_FEW, q->node, q->weight);
-  return status ? status : fill(BALL_CELL_MANY, q->many_node, q->many_weight);
-}
+/* Into each instruction set's copy of the caller. */
+#define INLINED static inline __attribute__((always_inline))
 
 /* A rule and the part of the plane that it integrates over. */
 struct region {
-  int n;
   const double *node, *weight;
   double r2, a, rho2, rho; /* r^2, the plane, its circle */
   double x0, x1, y0, y1;   /* 0 <= x0 < x1, 0 <= y0 < y1 */
 };
 
 /* int_0^1 (f - a) t dt along the ray from the near corner by (dx, dy). */
-static inline double along_ray(const struct region *g, int n, double dx,
-                               double dy) {
+INLINED double along_ray(const struct region *g, int n, double dx, double dy) {
   const double q0 = g->r2 - g->x0 * g->x0 - g->y0 * g->y0;
   const double q1 = 2 * (g->x0 * dx + g->y0 * dy), q2 = dx * dx + dy * dy;
   double sum = 0;
+#pragma omp simd reduction(+ : sum)
   for (int k = 0; k < n; k++) {
     const double t = g->node[k];
     sum += g->weight[k] * t * (sqrt(q0 - t * (q1 + t * q2)) - g->a);
@@ -64,7 +67,7 @@ static inline double along_ray(const struct region *g, int n, double dx,
   return sum;
 }
 
-static inline double right_edge(const struct region *g, int n, double y_end) {
+INLINED double right_edge(const struct region *g, int n, double y_end) {
   const double dx = g->x1 - g->x0, length = y_end - g->y0;
   double sum = 0;
   for (int k = 0; k < n; k++)
@@ -72,7 +75,7 @@ static inline double right_edge(const struct region *g, int n, double y_end) {
   return sum * dx * length;
 }
 
-static inline double top_edge(const struct region *g, int n, double x_end) {
+INLINED double top_edge(const struct region *g, int n, double x_end) {
   const double dy = g->y1 - g->y0, length = x_end - g->x0;
   double sum = 0;
   for (int k = 0; k < n; k++)
@@ -82,32 +85,34 @@ static inline double top_edge(const struct region *g, int n, double x_end) {
 
 /* Arc from s to e, counter-clockwise and at most a quarter of the circle. A
    point at the angle 2 atan(t) from its middle m is
-   ((1 - t^2) m + 2 t m') / (1 + t^2), m' being m turned by a right angle. */
-static double arc(const struct region *g, int n, const double s[2],
-                  const double e[2]) {
+   ((1 - t^2) m + 2 t m') / (1 + t^2), m' being m turned by a right angle. Its
+   poles are at t = i, 10 half-lengths or more from a part of the arc. */
+INLINED double arc(const struct region *g, int n, const double s[2],
+                   const double e[2]) {
   const double sum_x = s[0] + e[0], sum_y = s[1] + e[1];
   const double twice = sqrt(sum_x * sum_x + sum_y * sum_y);
   const double chord_x = e[0] - s[0], chord_y = e[1] - s[1];
   const double chord = sqrt(chord_x * chord_x + chord_y * chord_y);
   const double end = chord / (2 * g->rho + twice);
   const double m[2] = {g->rho * sum_x / twice, g->rho * sum_y / twice};
-  /* poles at t = i: keep them as far away, 10 half-lengths */
-  if (end > 0.1)
-    return arc(g, n, s, m) + arc(g, n, m, e);
+  const int parts = (int)ceil(end / 0.1);
+  const double length = 2 * end / parts;
   double sum = 0;
-  for (int k = 0; k < n; k++) {
-    const double t = end * (2 * g->node[k] - 1), w = 1 / (1 + t * t);
-    const double along = -2 * t * t * w, across = 2 * t * w;
-    const double x = m[0] + (along * m[0] - across * m[1]);
-    const double y = m[1] + (along * m[1] + across * m[0]);
-    const double dx = x - g->x0, dy = y - g->y0;
-    sum += g->weight[k] * w * (dx * x + dy * y) * along_ray(g, n, dx, dy);
-  }
-  return 4 * end * sum;
+  for (int part = 0; part < parts; part++)
+    for (int k = 0; k < n; k++) {
+      const double t = length * (part + g->node[k]) - end;
+      const double w = 1 / (1 + t * t);
+      const double along = -2 * t * t * w, across = 2 * t * w;
+      const double x = m[0] + (along * m[0] - across * m[1]);
+      const double y = m[1] + (along * m[1] + across * m[0]);
+      const double dx = x - g->x0, dy = y - g->y0;
+      sum += g->weight[k] * w * (dx * x + dy * y) * along_ray(g, n, dx, dy);
+    }
+  return 2 * length * sum;
 }
 
 /* P of the above over a rectangle in the first quadrant. */
-static inline double above_quadrant(const struct region *g, int n) {
+INLINED double above_quadrant(const struct region *g, int n) {
   const double xx0 = g->x0 * g->x0, xx1 = g->x1 * g->x1;
   const double yy0 = g->y0 * g->y0, yy1 = g->y1 * g->y1, rho2 = g->rho2;
   if (xx0 + yy0 >= rho2)
@@ -131,8 +136,8 @@ static inline double above_quadrant(const struct region *g, int n) {
 
 /* The same for a rectangle anywhere, by its parts in each quadrant, turned
    into the first. */
-static inline double above(struct region *g, int n, double a, const double x[2],
-                           const double y[2]) {
+INLINED double above(struct region *g, int n, double a, const double x[2],
+                     const double y[2]) {
   g->a = a;
   g->rho2 = g->r2 - a * a;
   if (g->rho2 <= 0)
@@ -152,17 +157,21 @@ static inline double above(struct region *g, int n, double a, const double x[2],
   return sum;
 }
 
-MULTIVERSION static double few(struct region *g, const double x[2],
-                               const double y[2], const double z[2]) {
-  return above(g, BALL_CELL_FEW, z[0], x, y) -
-         above(g, BALL_CELL_FEW, z[1], x, y);
-}
+/* One for each rule, so that the loops' lengths are known. */
+#define WITH(n)                                                                \
+  MULTIVERSION static double with_##n(struct region *g, const double x[2],     \
+                                      const double y[2], const double z[2]) {  \
+    return above(g, n, z[0], x, y) - above(g, n, z[1], x, y);                  \
+  }
+WITH(8)
+WITH(12)
+WITH(16)
 
-MULTIVERSION static double many(struct region *g, const double x[2],
-                                const double y[2], const double z[2]) {
-  return above(g, BALL_CELL_MANY, z[0], x, y) -
-         above(g, BALL_CELL_MANY, z[1], x, y);
-}
+static const struct {
+  double size; /* of the ellipse, to the power -2n about 1e-17 */
+  double (*integrate)(struct region *g, const double x[2], const double y[2],
+                      const double z[2]);
+} rules[BALL_CELL_RULES] = {{11.5, with_8}, {5.1, with_12}, {3.4, with_16}};
 
 static double square(double x) {
   return x * x;
@@ -202,16 +211,11 @@ double ball_cell_volume(const struct ball_cell *q, const double c[3], double r,
   }
   const double *x = side[(up + 1) % 3], *y = side[(up + 2) % 3];
   const double size = ellipse(r, x, y, z[0]);
-  struct region g = {.r2 = r * r};
-  if (size > 11.5) { /* 11.5^-16 = 1e-17 */
-    g.node = q->node;
-    g.weight = q->weight;
-    return few(&g, x, y, z);
-  }
-  if (size > 3.4) { /* 3.4^-32 = 1e-17 */
-    g.node = q->many_node;
-    g.weight = q->many_weight;
-    return many(&g, x, y, z);
-  }
+  for (int i = 0; i < BALL_CELL_RULES; i++)
+    if (size > rules[i].size) {
+      struct region g = {
+          .r2 = r * r, .node = q->rule[i].node, .weight = q->rule[i].weight};
+      return rules[i].integrate(&g, x, y, z);
+    }
   return volume_ball_box(c, r, cell);
 }

@@ -6,12 +6,13 @@
 #ifndef BALL_CELL_H
 #define BALL_CELL_H
 
-enum { BALL_CELL_FEW = 8, BALL_CELL_MANY = 16 };
+enum { BALL_CELL_RULES = 3 };
 
 /* Gauss-Legendre nodes and weights on [0, 1]. */
 struct ball_cell {
-  double node[BALL_CELL_FEW], weight[BALL_CELL_FEW];
-  double many_node[BALL_CELL_MANY], many_weight[BALL_CELL_MANY];
+  struct {
+    double node[16], weight[16];
+  } rule[BALL_CELL_RULES];
 };
 
 /* Returns GSL_SUCCESS or GSL_ENOMEM. */

@@ -199,18 +199,37 @@ struct row {
   double *x, *r;
 };
 
-static bool overlap(const struct row *w, size_t count) {
-  for (size_t i = 0; i < count; i++)
-    for (size_t j = 0; j < i; j++) {
-      double d2 = 0;
-      for (int k = 0; k < 3; k++)
-        d2 += (w->x[3 * i + k] - w->x[3 * j + k]) *
-              (w->x[3 * i + k] - w->x[3 * j + k]);
+/* Of two spheres the one with the greater power everywhere in a cell,
+   |x - c|^2 - r^2, has nothing in it that the other has not. Drops such ones;
+   returns how many stay. *overlap tells whether any two of them overlap. */
+static size_t drop_covered(struct row *w, size_t count, const double cell[6],
+                           bool *overlap) {
+  *overlap = false;
+  for (size_t j = 1; j < count; j++)
+    for (size_t i = 0; i < j; i++) {
+      const double *a = w->x + 3 * i, *b = w->x + 3 * j;
+      double d2 = 0, power = 0, swing = 0;
+      for (int k = 0; k < 3; k++) {
+        const double d = b[k] - a[k], twice = cell[2 * k] + cell[2 * k + 1];
+        d2 += d * d;
+        power += d * (twice - a[k] - b[k]);
+        swing += fabs(d) * (cell[2 * k + 1] - cell[2 * k]);
+      }
       const double touch = w->r[i] + w->r[j];
-      if (d2 < touch * touch)
-        return true;
+      if (d2 >= touch * touch)
+        continue;
+      power += (w->r[j] - w->r[i]) * touch; /* of i less that of j */
+      if (power > -swing && power < swing) {
+        *overlap = true;
+        continue;
+      }
+      const size_t gone = power <= -swing ? j : i;
+      memmove(w->x + 3 * gone, w->x + 3 * gone + 3,
+              3 * (count - gone - 1) * sizeof *w->x);
+      memmove(w->r + gone, w->r + gone + 1, (count - gone - 1) * sizeof *w->r);
+      return drop_covered(w, count - 1, cell, overlap);
     }
-  return false;
+  return count;
 }
 
 /* A cell that several spheres meet; NaN without memory. */
@@ -227,8 +246,10 @@ static double several_volume(struct row *w, const double cell[6]) {
     w->r[count++] = w->v->r[i];
   }
   double sum = 0;
-  /* for many spheres asking costs more than it saves */
-  if (count > 8 || overlap(w, count))
+  bool overlap = true;
+  if (count <= 16) /* for many spheres it costs more than it saves */
+    count = drop_covered(w, count, cell, &overlap);
+  if (overlap)
     return volume_union(count, w->x, w->r, cell, &sum) == GSL_SUCCESS ? sum
                                                                       : GSL_NAN;
   for (size_t i = 0; i < count; i++)
