@@ -286,7 +286,8 @@ static void test_bed_radius(void) {
 static void test_survey(gsl_rng *rng) {
   for (unsigned long seed = 0; seed < 60; seed++) {
     gsl_rng_set(rng, seed);
-    const size_t n = 1 + seed % 40;
+    /* the last in an order of its own */
+    const size_t n = seed < 59 ? 1 + seed % 40 : 1200;
     struct scene s = scene_default();
     struct bed b;
     s.gravity[2] = -9.81;
