@@ -73,6 +73,25 @@ static double remaining(const struct watch *w, const double y[]) {
          w->weight * contact_energy(&d->law, y[0]);
 }
 
+/* The lower root z of g z + touch exp(-kappa z) = energy, by Newton's method
+   from below: the sum is convex, so it comes no further than the root. */
+static double deepest(const struct drop *d, double touch, double energy) {
+  const double kappa = d->law.kappa, g = d->gravity;
+  const double rest = log(kappa * touch / g) / kappa;
+  double below = 1 / kappa, z;
+  do {
+    z = rest - below;
+    below *= 2;
+  } while (g * z + touch * exp(-kappa * z) < energy);
+  for (size_t k = 0; k < 100; k++) {
+    const double stored = touch * exp(-kappa * z);
+    if (!(kappa * stored > g)) /* it begins at rest */
+      break;
+    z += (g * z + stored - energy) / (kappa * stored - g);
+  }
+  return z;
+}
+
 static struct watch watch_start(struct integrator *it, const struct drop *d,
                                 const char *method) {
   const double e = d->law.restitution;
@@ -83,14 +102,11 @@ static struct watch watch_start(struct integrator *it, const struct drop *d,
   w.adapts = status != GSL_SUCCESS;
   w.bottom = integrate_state(it)[0];
   w.first = w.lowest = remaining(&w, integrate_state(it));
-  /* rho(0) F/kappa + g z = energy, by iteration: g z is small there */
-  const double touch = w.weight * contact_energy(&d->law, 0);
-  for (size_t k = 0; k < 20; k++)
-    w.deepest = -log((w.first - d->gravity * w.deepest) / touch) / d->law.kappa;
+  w.deepest = deepest(d, w.weight * contact_energy(&d->law, 0), w.first);
   return w;
 }
 
-/* The share of the time in which stability set the step. The mode is the
+/* The share of the steps that stability set. The mode is the
    Jacobian's own: lambda^2 = f_z + f_v lambda. */
 static void watch_stiffness(struct watch *w, const double y[]) {
   double dfdy[4], dfdt[2];

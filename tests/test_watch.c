@@ -286,13 +286,16 @@ static void test_bed_radius(void) {
 static void test_survey(gsl_rng *rng) {
   for (unsigned long seed = 0; seed < 60; seed++) {
     gsl_rng_set(rng, seed);
-    const size_t n = 1 + seed % 40;
+    /* the last in an order of its own */
+    const size_t n = seed < 59 ? 1 + seed % 40 : 1200;
     struct scene s = scene_default();
     struct bed b;
     s.gravity[2] = -9.81;
-    CHECK(scene_add_box(&s, 1, 1) == GSL_SUCCESS && bed_alloc(&b, n) == 0);
-    CHECK(scene_add_wall(&s, (double[]){0.2, 0.1, 0.9}, (double[]){1, 2, 2}) ==
-          GSL_SUCCESS);
+    CHECK(bed_alloc(&b, n) == GSL_SUCCESS);
+    if (seed % 2) /* without, the deepest overlap is a pair's */
+      CHECK(scene_add_box(&s, 1, 1) == GSL_SUCCESS &&
+            scene_add_wall(&s, (double[]){0.2, 0.1, 0.9},
+                           (double[]){1, 2, 2}) == GSL_SUCCESS);
     for (size_t i = 0; i < n; i++) {
       b.r[i] = 0.05 + 0.1 * gsl_rng_uniform(rng);
       b.m[i] = 0.5 + gsl_rng_uniform(rng);

@@ -102,6 +102,23 @@ run settle --count 1 --time 0
 silent
 run settle --count 1 --gravity 0 --time 1
 silent
+# energy has its weight, of contacts that close slowly, and begins at lmax
+run settle "${narrow[@]}" --model basic --restitution 0 --tol 1e-6 --time 0.6
+silent
+key surveys 'x > 30'
+key energy_gain 'x < 1e-3'
+run settle "${narrow[@]}" --model basic --restitution 1 --kappa 60 --time 0.6 \
+  --method dopri5 --control standard --tol 1e-5
+key energy_gain 'x < 5e-4' # one contact begins with 8e-4
+run settle "${narrow[@]}" --method verlet --step 7e-5 --time 0.6
+silent
+key time_beyond_limit 'x > 0.1 && x < 0.5'
+for height in 16 0.1 1e-2 3e-3 1e-3 1e-4 1e-6; do
+  run bounce --restitution 0 --height $height --psi 1
+  silent
+  run bounce --height $height --kappa 30
+  silent
+done
 for options in '' --rebound '--restitution 0.4' '--method dopri5' \
   '--method rkc --tol 5e-4 --restitution 0.5' '--method verlet --step 1e-4' \
   '--hinit 1e-12 --time 0.1' '--height 1e-6' '--method msbdf'; do
