@@ -79,7 +79,7 @@ enum { MOST_SLABS = 1000000 };
 /* Cuts a box into slabs of a height, the last one lower where it must be. */
 static void cut_slabs(struct boxes *boxes, const double box[6], double height) {
   /* a rounding error of the quotient is no slab */
-  const double slabs = ceil((box[5] - box[4]) / height - 1e-9);
+  const double slabs = fmax(1, ceil((box[5] - box[4]) / height - 1e-9));
   if (!(slabs <= MOST_SLABS))
     die(EXIT_USAGE, "--slab %g: expected at most %d slabs", height, MOST_SLABS);
   double slab[6];
