@@ -5,6 +5,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_roots.h>
+#include "box.h"
 #include "neighbors.h"
 #include "options.h"
 #include "vec3.h"
@@ -133,8 +134,7 @@ static double excess(double r, void *params) {
 
 int radius_of_fraction(size_t n, const double *x, const double box[6],
                        double fraction, bool sum, double *r) {
-  const double volume =
-      (box[1] - box[0]) * (box[3] - box[2]) * (box[5] - box[4]);
+  const double volume = box_volume(box);
   if (n == 0 || !(fraction > 0) || (!sum && fraction >= 1) || !(volume > 0))
     return GSL_EDOM;
   struct target t = {
