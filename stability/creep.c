@@ -73,8 +73,10 @@ static int creep(const struct slope *a, double time, double travel,
       scene_add_wall(&scene, (double[]){0, 0, 0}, (double[]){0, 0, -1});
   if (status == GSL_SUCCESS)
     status = bed_alloc(&bed, 1);
-  if (status != GSL_SUCCESS)
+  if (status != GSL_SUCCESS) {
+    scene_free(&scene);
     return status;
+  }
   bed.r[0] = radius;
   bed.x[2] = radius + closed_rest_gap(law, weight);
   status = motion_start(&m, &scene, &bed, o,
