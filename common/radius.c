@@ -176,15 +176,6 @@ done:
 
 static const char dynamics_key[] = "radius_dynamics", why_key[] = "radius_keep";
 
-/* Fewest digits that read back as the same number, as option_text has them. */
-static void number_text(double x, char text[32]) {
-  for (int digits = 6; digits <= 17; digits++) {
-    snprintf(text, 32, "%.*g", digits, x);
-    if (strtod(text, NULL) == x)
-      return;
-  }
-}
-
 int radius_rewrite(struct bed *b, struct bed_header *h, double r,
                    const char *why) {
   char text[32];
@@ -193,7 +184,7 @@ int radius_rewrite(struct bed *b, struct bed_header *h, double r,
     bed_header_remove(h, why_key);
   } else {
     if (!bed_header_get(h, dynamics_key) && b->n) {
-      number_text(b->r[0], text);
+      format_double(b->r[0], text, sizeof text);
       if (bed_header_set(h, dynamics_key, text) != GSL_SUCCESS)
         return GSL_ENOMEM;
     }
@@ -202,7 +193,7 @@ int radius_rewrite(struct bed *b, struct bed_header *h, double r,
   }
   for (size_t i = 0; i < b->n; i++)
     b->r[i] = r;
-  number_text(r, text);
+  format_double(r, text, sizeof text);
   return bed_header_set(h, "radius", text);
 }
 
