@@ -195,14 +195,19 @@ static void print_degrees(const struct measured *m) {
   free(count);
 }
 
-/* Bin of an overlap, or SIZE_MAX where there is none. */
+/* Far outside of a wall an overlap has no end. */
+enum { MOST_BINS = 1000000 };
+
+/* Bin of an overlap, MOST_BINS beyond the last, or SIZE_MAX where there is
+   none. */
 static size_t overlap_bin(const struct measured *m,
                           const struct network_contact *c) {
-  return c->gap < 0 && within(m, c) ? (size_t)(overlap(m, c) / m->set->bin)
-                                    : SIZE_MAX;
+  return c->gap < 0 && within(m, c)
+             ? (size_t)GSL_MIN(overlap(m, c) / m->set->bin, MOST_BINS)
+             : SIZE_MAX;
 }
 
-static void print_overlaps(const struct measured *m) {
+static void print_overlaps(const struct frames *f, const struct measured *m) {
   const struct network *w = &m->network;
   size_t bins = 0;
   for (size_t p = 0; p < w->count; p++) {
@@ -210,6 +215,10 @@ static void print_overlaps(const struct measured *m) {
     if (bin != SIZE_MAX)
       bins = GSL_MAX(bins, bin + 1);
   }
+  if (bins > MOST_BINS)
+    frame_refuse(f, m->bed,
+                 "an overlap of more than a million bins, expected spheres "
+                 "inside of their walls or a wider --bin");
   size_t *count = measure_alloc(2 * bins, sizeof *count);
   for (size_t p = 0; p < w->count; p++) {
     const size_t bin = overlap_bin(m, &w->at[p]);
@@ -245,7 +254,8 @@ static void print_network(const struct measured *m) {
   }
 }
 
-static void print_frame(const struct measured *m, bool first) {
+static void print_frame(const struct frames *f, const struct measured *m,
+                        bool first) {
   const struct contacts *set = m->set;
   const bool table = set->degrees || set->overlaps || set->network;
   if (table && !first)
@@ -253,7 +263,7 @@ static void print_frame(const struct measured *m, bool first) {
   if (set->degrees)
     print_degrees(m);
   else if (set->overlaps)
-    print_overlaps(m);
+    print_overlaps(f, m);
   else if (set->network)
     print_network(m);
   else
@@ -327,7 +337,7 @@ int verb_contacts(int argc, char **argv) {
   for (bool first = true; frames_next(&frames, &bed); first = false) {
     struct scene scene = frame_scene(&frames, &bed);
     struct measured m = measure(&frames, &set, &scene, &bed);
-    print_frame(&m, first);
+    print_frame(&frames, &m, first);
     measured_free(&m);
     scene_free(&scene);
   }

@@ -53,7 +53,7 @@ int verb_draw(int argc, char **argv) {
     count++;
   }
   if (wanted >= 0 && (double)count != wanted + 1)
-    die(EXIT_USAGE, "--frame %g: there are frames 0 to %zu", wanted, count - 1);
+    die(EXIT_INPUT, "--frame %g: there are frames 0 to %zu", wanted, count - 1);
   picture_measure(&picture, &bed, frames_header(&frames));
   picture_write(&picture, &bed, "bed.tsv");
   bed_free(&bed);

@@ -10,6 +10,7 @@
 #endif
 #include "files.h"
 #include "frames.h"
+#include "measure.h"
 #include "options.h"
 #include "verbs.h"
 #include "writers.h"
@@ -81,15 +82,6 @@ static void take_cells(const struct option_list *list, size_t cells[3]) {
   if (bytes > OPTION_MANY)
     die(EXIT_USAGE, "--cells: %g bytes, expected at most %g", bytes,
         OPTION_MANY);
-}
-
-static void take_box(const struct option_list *list, double box[6]) {
-  memcpy(box, list->at, 6 * sizeof *box);
-  const double volume =
-      (box[1] - box[0]) * (box[3] - box[2]) * (box[5] - box[4]);
-  if (!(box[1] > box[0] && box[3] > box[2] && box[5] > box[4]) ||
-      !(volume > 0) || !isfinite(volume))
-    die(EXIT_USAGE, "--box: expected x0 < x1, y0 < y1, z0 < z1");
 }
 
 /* The box that holds the spheres and ends at walls along the axes, where a
@@ -361,7 +353,8 @@ int verb_export(int argc, char **argv) {
     die(EXIT_USAGE, "--binary: is bytes, expected no --type");
   q.write.single = !strcmp(type, "float32");
   q.write.quiet = input.quiet;
-  take_box(&box, q.write.box);
+  box_check(&box);
+  memcpy(q.write.box, box.at, sizeof q.write.box);
   take_cells(&cells, q.write.cells);
 #ifdef _OPENMP
   if (q.write.threads == 0)

@@ -8,6 +8,7 @@
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
+#include "box.h"
 #include "files.h"
 #include "frames.h"
 #include "measure.h"
@@ -19,16 +20,6 @@ struct boxes {
   size_t count, size;
   double (*at)[6];
 };
-
-static double box_volume(const double b[6]) {
-  return (b[1] - b[0]) * (b[3] - b[2]) * (b[5] - b[4]);
-}
-
-static bool box_good(const double b[6]) {
-  const double volume = box_volume(b);
-  return b[1] > b[0] && b[3] > b[2] && b[5] > b[4] && volume > 0 &&
-         isfinite(volume);
-}
 
 static void boxes_add(struct boxes *boxes, const double box[6]) {
   if (boxes->count == boxes->size) {
@@ -60,7 +51,7 @@ static void read_boxes(struct boxes *boxes, const char *path) {
     if (!numbers || words != 6)
       die(EXIT_INPUT, "%s:%zu: expected six numbers x0 x1 y0 y1 z0 z1", name,
           number);
-    if (!box_good(box))
+    if (!box_valid(box))
       die(EXIT_INPUT, "%s:%zu: expected x0 < x1, y0 < y1, z0 < z1", name,
           number);
     boxes_add(boxes, box);
@@ -79,7 +70,7 @@ enum { MOST_SLABS = 1000000 };
 /* Cuts a box into slabs of a height, the last one lower where it must be. */
 static void cut_slabs(struct boxes *boxes, const double box[6], double height) {
   /* a rounding error of the quotient is no slab */
-  const double slabs = ceil((box[5] - box[4]) / height - 1e-9);
+  const double slabs = fmax(1, ceil((box[5] - box[4]) / height - 1e-9));
   if (!(slabs <= MOST_SLABS))
     die(EXIT_USAGE, "--slab %g: expected at most %d slabs", height, MOST_SLABS);
   double slab[6];
@@ -184,8 +175,7 @@ int verb_fraction(int argc, char **argv) {
     die(EXIT_USAGE, "--boxes: expected no --box, --until or --slab beside it");
   if (option_find(options, "until")->given)
     box.at[5] = until;
-  if (!box_good(box.at))
-    die(EXIT_USAGE, "--box: expected x0 < x1, y0 < y1, z0 < z1");
+  box_check(&box);
   struct boxes boxes = {0};
   if (boxes_file)
     read_boxes(&boxes, boxes_file);

@@ -4,12 +4,12 @@
 #include <stdlib.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
+#include "box.h"
 #include "scene_options.h"
 
 void box_check(const struct option_list *box) {
-  for (size_t k = 0; k < box->count; k += 2)
-    if (!(box->at[k] < box->at[k + 1]))
-      die(EXIT_USAGE, "--box: expected x0 < x1, y0 < y1, z0 < z1");
+  if (box->count && !box_valid(box->at))
+    die(EXIT_USAGE, "--box: expected x0 < x1, y0 < y1, z0 < z1");
 }
 
 void frame_refuse(const struct frames *f, const struct bed *b,

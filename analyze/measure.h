@@ -15,7 +15,7 @@
    .unit = "x0,x1,y0,y1,z0,z1 in m", .help = help_}
 /* clang-format on */
 
-/* Exits with EXIT_USAGE if the box was given and is empty. */
+/* Exits with EXIT_USAGE if the box was given and has no volume (box_valid). */
 void box_check(const struct option_list *box);
 
 /* The scene of the frame just read, to be freed: its header's keys over

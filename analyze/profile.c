@@ -10,6 +10,7 @@
 #include <gsl/gsl_math.h>
 #include "area.h"
 #include "frames.h"
+#include "measure.h"
 #include "options.h"
 #include "verbs.h"
 
@@ -151,14 +152,12 @@ int verb_profile(int argc, char **argv) {
       .example = "settle | analyze profile --from-wall 0.4",
       .options = options};
   const int operand = options_parse(&program, argc, argv);
+  box_check(&box);
   memcpy(w.box, box.at, sizeof w.box);
   w.axis = axis[0] - 'x';
   w.across[0] = w.axis == 0 ? 1 : 0;
   w.across[1] = w.axis == 2 ? 1 : 2;
   w.cylinder = cylinder.count ? cylinder.at : NULL;
-  for (int k = 0; k < 6; k += 2)
-    if (!(w.box[k] < w.box[k + 1] && isfinite(w.box[k + 1] - w.box[k])))
-      die(EXIT_USAGE, "--box: expected x0 < x1, y0 < y1, z0 < z1");
   if (w.cylinder && !(w.cylinder[2] > 0))
     die(EXIT_USAGE, "--cylinder: expected a radius above 0");
   double widest = w.cylinder ? w.cylinder[2] : GSL_POSINF;

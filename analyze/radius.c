@@ -6,6 +6,7 @@
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
+#include "box.h"
 #include "frames.h"
 #include "measure.h"
 #include "options.h"
@@ -67,9 +68,7 @@ static struct measured measure(const struct settings *s,
                                const struct scene *walls, const struct bed *b,
                                double r) {
   struct measured m = {.r = r};
-  const double *box = s->box;
-  const double volume =
-      (box[1] - box[0]) * (box[3] - box[2]) * (box[5] - box[4]);
+  const double *box = s->box, volume = box_volume(box);
   double *radii = calloc(b->n + 1, sizeof *radii);
   if (!radii)
     die(EXIT_IO, "out of memory");
@@ -197,10 +196,8 @@ int verb_radius(int argc, char **argv) {
       .example = "settle | analyze radius --keep contact-mean > geometry.tsv",
       .options = options};
   const int operand = options_parse(&program, argc, argv);
+  box_check(&box);
   memcpy(s.box, box.at, sizeof s.box);
-  for (int k = 0; k < 6; k += 2)
-    if (!(s.box[k] < s.box[k + 1] && isfinite(s.box[k + 1] - s.box[k])))
-      die(EXIT_USAGE, "--box: expected x0 < x1, y0 < y1, z0 < z1");
   s.sum = !strcmp(of, "sum");
   set_keep(&s);
 

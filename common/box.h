@@ -1,7 +1,9 @@
-/* Boxes {x0, x1, y0, y1, z0, z1} along the axes (m). */
+/* Boxes {x0, x1, y0, y1, z0, z1} along the axes (m). Pure inline functions,
+   safe in any thread. Tested in tests/test_analyze_structure.sh. */
 #ifndef BOX_H
 #define BOX_H
 
+#include <math.h>
 #include <stdbool.h>
 
 /* Is x within the box, its faces included? */
@@ -14,6 +16,13 @@ static inline bool box_holds(const double box[6], const double x[3]) {
 
 static inline double box_volume(const double box[6]) {
   return (box[1] - box[0]) * (box[3] - box[2]) * (box[5] - box[4]);
+}
+
+/* Has it a volume that can be divided by? Faces in order and finite, a product
+   that neither overflows nor vanishes. */
+static inline bool box_valid(const double box[6]) {
+  return box[0] < box[1] && box[2] < box[3] && box[4] < box[5] &&
+         box_volume(box) > 0 && isfinite(box_volume(box));
 }
 
 #endif

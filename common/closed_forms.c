@@ -77,6 +77,8 @@ int closed_restitution(const struct contact_law *c, double v0, double *v1,
                        double *error) {
   struct rebound r = {*c, 0};
   double spent_error, v = 0;
+  if (!(v0 > 0))
+    return GSL_EDOM;
   int status = integral(loading, &r.law, 0, v0, &r.spent, &spent_error);
   /* equal at e = 1, up to rounding */
   if (status == GSL_SUCCESS)
@@ -129,6 +131,8 @@ int closed_rebound_time(double f0, double kappa, double gravity, double height,
                    0};
   const double split = 40 / kappa; /* where the contact begins */
   double below = 0, above = 0, below_error = 0, above_error = 0;
+  if (!(height > split) || !(gravity > 0))
+    return GSL_EDOM;
   /* e times as much energy as there is at the lower end */
   int status =
       find_root(fall_potential, &f, -(log(kappa * f.energy / f0) + 1) / kappa,

@@ -19,12 +19,13 @@ void closed_collision(double f0, double kappa, double v0, double tau,
 
 /* Speed v1 after a collision without gravity of approach speed v0, from
      int_0^v0 u/rho(u) du = int_0^v1 u/rho(-u) du,
-   whatever F0 and kappa. */
+   whatever F0 and kappa. v0 > 0, else GSL_EDOM. */
 int closed_restitution(const struct contact_law *c, double v0, double *v1,
                        double *error);
 
 /* Time from the drop at a gap of height (m) to the next apex, e = 1, by the
-   energy integral. */
+   energy integral. The drop begins in free flight, height > 40/kappa, else
+   GSL_EDOM. */
 int closed_rebound_time(double f0, double kappa, double gravity, double height,
                         double *time, double *error);
 
@@ -34,7 +35,7 @@ double closed_rest_gap(const struct contact_law *c, double normal);
 
 /* Time (s) in which slip falls from vmin to s vmin, 0 < s <= 1, if friction
    slows it by rate Sigma (m/s^2): the integral of 1/(3 s^2 - 2 s^3). Its
-   inverse needs t >= 0. */
+   inverse needs t >= 0, else GSL_EDOM. */
 double closed_slip_time(double s, double vmin, double rate);
 int closed_slip_share(double t, double vmin, double rate, double *s);
 

@@ -1,6 +1,7 @@
 /* The contacts of a bed one by one, each with the force that the law gives it,
    and what follows: coordination, rattlers, fabric, loads on the walls. For
-   measuring; dynamics.h has the fast sums. Tested in tests/test_contacts.c. */
+   measuring; dynamics.h has the fast sums. Safe in any thread, one network at a
+   time. Tested in tests/test_contacts.c. */
 #ifndef NETWORK_H
 #define NETWORK_H
 
@@ -29,7 +30,7 @@ struct network {
    or, if that is more, lmax; beyond lmax there is no force. All of them count
    until network_mark. Returns GSL_SUCCESS; GSL_EDOM where two centres are one,
    GSL_EINVAL for a number that is not finite, GSL_ENOMEM, with an empty list.
- */
+   w begins as zeros, or holds what was found before, which is freed. */
 int network_find(struct network *w, const struct scene *s, const struct bed *b,
                  double reach);
 void network_free(struct network *w);

@@ -156,9 +156,7 @@ struct option_spec *option_find(struct option_spec *options, const char *name) {
   return NULL;
 }
 
-/* Fewest digits that read back as the same number: 0.4, not 0.40000000000000002
-   as %.17g has it. */
-static void shortest(double x, char *text, size_t size) {
+void format_double(double x, char *text, size_t size) {
   for (int digits = 6; digits <= 17; digits++) {
     snprintf(text, size, "%.*g", digits, x);
     if (strtod(text, NULL) == x)
@@ -173,7 +171,7 @@ void option_text(const struct option_spec *o, char *text, size_t size) {
     snprintf(text, size, "%s", *(const bool *)o->value ? "yes" : "no");
     break;
   case OPTION_DOUBLE:
-    shortest(*(const double *)o->value, text, size);
+    format_double(*(const double *)o->value, text, size);
     break;
   case OPTION_SIZE:
     snprintf(text, size, "%zu", *(const size_t *)o->value);
@@ -188,7 +186,7 @@ void option_text(const struct option_spec *o, char *text, size_t size) {
     const struct option_list *list = o->value;
     char number[32];
     for (size_t i = 0; i < list->count; i++) {
-      shortest(list->at[i], number, sizeof number);
+      format_double(list->at[i], number, sizeof number);
       const size_t used = strlen(text);
       snprintf(text + used, size - used, i ? ",%s" : "%s", number);
     }

@@ -66,11 +66,15 @@ int options_parse(const struct program *p, int argc, char **argv);
 const char *option_set(struct option_spec *o, const char *text);
 struct option_spec *option_find(struct option_spec *options, const char *name);
 
-/* The value as text, as option_set reads it; %.17g for numbers. */
+/* The value as text, as option_set reads it; numbers by format_double. */
 void option_text(const struct option_spec *o, char *text, size_t size);
 
 /* Parses a whole string as a finite number. */
 bool parse_double(const char *text, double *value);
+
+/* The fewest digits that read back as the same number: 0.4, not
+   0.40000000000000002 as %.17g has it. text: 32 bytes are enough. */
+void format_double(double x, char *text, size_t size);
 
 /* Flushes standard output; exits with EXIT_IO if anything was not written. */
 void finish_output(void);

@@ -5,6 +5,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_roots.h>
+#include "box.h"
 #include "neighbors.h"
 #include "options.h"
 #include "vec3.h"
@@ -133,8 +134,7 @@ static double excess(double r, void *params) {
 
 int radius_of_fraction(size_t n, const double *x, const double box[6],
                        double fraction, bool sum, double *r) {
-  const double volume =
-      (box[1] - box[0]) * (box[3] - box[2]) * (box[5] - box[4]);
+  const double volume = box_volume(box);
   if (n == 0 || !(fraction > 0) || (!sum && fraction >= 1) || !(volume > 0))
     return GSL_EDOM;
   struct target t = {
@@ -176,15 +176,6 @@ done:
 
 static const char dynamics_key[] = "radius_dynamics", why_key[] = "radius_keep";
 
-/* Fewest digits that read back as the same number, as option_text has them. */
-static void number_text(double x, char text[32]) {
-  for (int digits = 6; digits <= 17; digits++) {
-    snprintf(text, 32, "%.*g", digits, x);
-    if (strtod(text, NULL) == x)
-      return;
-  }
-}
-
 int radius_rewrite(struct bed *b, struct bed_header *h, double r,
                    const char *why) {
   char text[32];
@@ -193,7 +184,7 @@ int radius_rewrite(struct bed *b, struct bed_header *h, double r,
     bed_header_remove(h, why_key);
   } else {
     if (!bed_header_get(h, dynamics_key) && b->n) {
-      number_text(b->r[0], text);
+      format_double(b->r[0], text, sizeof text);
       if (bed_header_set(h, dynamics_key, text) != GSL_SUCCESS)
         return GSL_ENOMEM;
     }
@@ -202,7 +193,7 @@ int radius_rewrite(struct bed *b, struct bed_header *h, double r,
   }
   for (size_t i = 0; i < b->n; i++)
     b->r[i] = r;
-  number_text(r, text);
+  format_double(r, text, sizeof text);
   return bed_header_set(h, "radius", text);
 }
 

@@ -77,7 +77,8 @@ static int read_names(struct bed_reader *r, const char *line) {
                           "LAMMPS dump or an XYZ file");
   columns_clear(r, r->table ? separator_of(line) : BLANKS);
   r->decimal_comma = r->separator == ';' || r->separator == '\t';
-  if (!r->table && r->default_radius == 0)
+  if (!r->table && r->default_radius == 0 &&
+      !bed_header_get(&r->header, "radius"))
     r->default_radius = default_radius;
   size_t length = 0;
   int status = GSL_SUCCESS;

@@ -1,6 +1,7 @@
 /* When a bed is at rest: no surface was faster than vmin, the speed below which
    the model's own friction lets a loaded contact creep, for 0.1 s. What settle
-   --until-rest waits for and analyze rest tells. Not in the paper. */
+   --until-rest waits for and analyze rest tells. Not in the paper. Safe in any
+   thread. Tested in tests/test_analyze_structure.sh and tests/test_cli.sh. */
 #ifndef REST_H
 #define REST_H
 
@@ -17,8 +18,8 @@ static inline struct rest_watch rest_watch_begin(double t) {
   return (struct rest_watch){.since = t};
 }
 
-/* Takes note of the largest speed of any surface at time t; is the bed at
-   rest? */
+/* Takes note of the largest speed of any surface at time t, where NaN is
+   motion (s, m/s); is the bed at rest? */
 static inline bool rest_watch_see(struct rest_watch *w, double t,
                                   double fastest, double vmin) {
   if (!(fastest < vmin)) {

@@ -1,7 +1,7 @@
 /* A stage of a Runge-Kutta method together with the right-hand side that it
    needs. A system that can do both in one pass keeps the derivative, a few rows
    at a time, in the cache instead of writing it to memory and reading it
-   back. */
+   back. Not in the paper. Tested in tests/test_dynamics.c. */
 #ifndef STAGE_H
 #define STAGE_H
 

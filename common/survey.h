@@ -1,6 +1,6 @@
 /* What a state's contacts say in one pass over the list: energies, the deepest
    overlap and the spheres' places before the walls. Internal to dynamics.c.
-   Tested in tests/test_watch.c. */
+   Safe in any thread. Tested in tests/test_watch.c. */
 #ifndef SURVEY_H
 #define SURVEY_H
 

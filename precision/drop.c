@@ -1,6 +1,7 @@
 #include "drop.h"
 
 #include <gsl/gsl_errno.h>
+#include "travel.h"
 
 double drop_contact(const struct drop *d, double gap, double rate,
                     double slope[2]) {
@@ -35,8 +36,7 @@ static int jacobian(double t, const double y[], double *dfdy, double dfdt[],
 
 static double step_limit(const double y[], const double dydt[], void *params) {
   const double travel = ((const struct drop *)params)->travel;
-  const double v = fabs(y[1]), a = fabs(dydt[1]);
-  return 2 * travel / (v + sqrt(v * v + 2 * a * travel));
+  return travel_time(fabs(y[1]), fabs(dydt[1]), travel);
 }
 
 int drop_start(struct drop *d, struct integrator **it,

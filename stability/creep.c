@@ -7,6 +7,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_math.h>
+#include "closed_forms.h"
 #include "motion.h"
 #include "shared_options.h"
 #include "verbs.h"
@@ -72,11 +73,12 @@ static int creep(const struct slope *a, double time, double travel,
       scene_add_wall(&scene, (double[]){0, 0, 0}, (double[]){0, 0, -1});
   if (status == GSL_SUCCESS)
     status = bed_alloc(&bed, 1);
-  if (status != GSL_SUCCESS)
+  if (status != GSL_SUCCESS) {
+    scene_free(&scene);
     return status;
+  }
   bed.r[0] = radius;
-  bed.x[2] =
-      radius - log(weight / contact_rebound(law, 0) / law->f0) / law->kappa;
+  bed.x[2] = radius + closed_rest_gap(law, weight);
   status = motion_start(&m, &scene, &bed, o,
                         &(struct dynamics_options){.threads = 1}, travel);
   bed_free(&bed);

@@ -11,9 +11,11 @@
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
+#include "closed_forms.h"
 #include "integrate.h"
 #include "scene.h"
 #include "shared_options.h"
+#include "travel.h"
 #include "verbs.h"
 
 static const char *const tapers[] = {"none", "shift", "c1", "c2", NULL};
@@ -57,26 +59,17 @@ static int rhs(double t, const double y[], double dydt[], void *params) {
 
 static double step_limit(const double y[], const double dydt[], void *params) {
   const struct wall_contact *w = params;
-  const double v = fabs(y[1]), a = fabs(dydt[1]);
-  return 2 * w->travel / (v + sqrt(v * v + 2 * a * w->travel));
-}
-
-/* Without a cut, tau after the turning point: gap (m) and velocity (m/s). */
-static void uncut(const struct contact_law *law, double v0, double tau,
-                  double y[2]) {
-  const double x = law->kappa * v0 * tau / 2;
-  y[0] = -log(law->kappa * v0 * v0 / (2 * law->f0)) / law->kappa +
-         2 / law->kappa * (fabs(x) + log1p(exp(-2 * fabs(x))) - M_LN2);
-  y[1] = v0 * tanh(x);
+  return travel_time(fabs(y[1]), fabs(dydt[1]), w->travel);
 }
 
 static void print_run(struct wall_contact *w, double v0,
                       const struct integrate_options *o) {
   const double tau = 45 / (w->law.kappa * v0);
   const double scale[2] = {1 / w->law.kappa, 1};
-  double start[2], end[2];
-  uncut(&w->law, v0, -tau, start);
-  uncut(&w->law, v0, tau, end);
+  const double f0 = w->law.f0, kappa = w->law.kappa;
+  double start[2], end[2]; /* gap (m) and velocity (m/s), without a cut */
+  closed_collision(f0, kappa, v0, -tau, &start[0], &start[1]);
+  closed_collision(f0, kappa, v0, tau, &end[0], &end[1]);
   const struct integrate_problem problem = {
       .system = {.function = rhs, .dimension = 2, .params = w},
       .scale = scale,

@@ -33,8 +33,10 @@ static int fill_box(const struct elastic *e, struct scene *s, struct bed *b) {
   int status = scene_add_box(s, e->edge, e->edge);
   if (status == GSL_SUCCESS)
     status = scene_add_wall(s, (double[]){0, 0, e->edge}, (double[]){0, 0, 1});
+  if (status != GSL_SUCCESS)
+    return status;
   gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
-  if (!rng || status != GSL_SUCCESS)
+  if (!rng)
     return GSL_ENOMEM;
   gsl_rng_set(rng, e->seed);
   for (size_t i = 0; i < e->count; i++) {

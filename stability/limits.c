@@ -16,6 +16,7 @@
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
+#include "closed_forms.h"
 #include "dynamics.h"
 #include "rkc.h"
 #include "shared_options.h"
@@ -77,8 +78,7 @@ static int pressed_alloc(struct pressed *p, enum axis axis, double vmin,
     status = bed_alloc(&p->bed, 1);
   if (status != GSL_SUCCESS)
     return status;
-  p->rest =
-      radius - log(weight / contact_rebound(law, 0) / law->f0) / law->kappa;
+  p->rest = radius + closed_rest_gap(law, weight);
   p->bed.r[0] = radius;
   p->bed.x[2] = p->rest;
   if (axis == REAL) { /* along the mode: v by 1/m, w by r/I the other way */

@@ -37,15 +37,17 @@ static int shoot(const struct shot *s, const struct integrate_options *o,
                  enum outcome *outcome, size_t *evaluations) {
   const bool wall = !strcmp(s->target, "wall");
   struct scene scene = {.model = SCENE_BASIC, .law = s->law};
-  struct bed bed;
+  struct bed bed = {0};
   struct motion m;
   int status =
       wall ? scene_add_wall(&scene, (double[]){0, 0, 0}, (double[]){0, 0, -1})
            : GSL_SUCCESS;
   if (status == GSL_SUCCESS)
     status = bed_alloc(&bed, wall ? 1 : 2);
-  if (status != GSL_SUCCESS)
+  if (status != GSL_SUCCESS) {
+    scene_free(&scene);
     return status;
+  }
   bed.r[0] = radius;
   bed.x[2] = radius + s->distance;
   bed.v[2] = -s->speed;

@@ -212,6 +212,17 @@ printf '# gravity=0\nx\ty\tz\n1\t1\t1\n# status=ok\n' >"$T/weightless"
 refuse 'two tables' 2 'one of --degrees' contacts --network --degrees "$T/sc"
 refuse 'an empty box' 2 'x0 < x1' contacts --box 1,0,0,1,0,1 "$T/sc"
 refuse 'an empty box' 2 'x0 < x1' gr --box 1,0,0,1,0,1 "$T/sc"
+printf '# wall=0 0 0 0 0 -1\nid\tx\ty\tz\n0\t0.5\t0.5\t-1e60\n# status=ok\n' \
+  >"$T/outside"
+refuse 'overlaps without end' 3 'more than a million bins' contacts --overlaps \
+  "$T/outside"
+tiny=0,1e-200,0,1e-200,0,1e-200 huge=-1e200,1e200,-1e200,1e200,-1e200,1e200
+for verb in fraction profile contacts rest gr order radius; do
+  refuse "$verb: a box whose volume vanishes" 2 'x0 < x1' $verb --box=$tiny \
+    "$T/sc"
+  refuse "$verb: a box whose volume overflows" 2 'x0 < x1' $verb --box=$huge \
+    "$T/sc"
+done
 refuse 'no bins' 2 'bins' gr --bins 0 "$T/sc"
 refuse 'no cutoff' 2 'cutoff' order --cutoff 0 "$T/sc"
 refuse 'a second file' 2 'one file' rest "$T/sc" "$T/sc"

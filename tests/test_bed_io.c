@@ -389,6 +389,7 @@ static const struct refused refusals[] = {
     {HEAD COLUMNS_LINE ROW "\n\n# t=inf\n" ROW END, 7, 9, "t=inf"},
     {"# format=bed-2\n# t=1\n" COLUMNS_LINE ROW END, 1, 1, "bed-2"},
     {"# radius=-1\nx\ty\tz\n1\t2\t3\n" END, 1, 3, "radius"},
+    {"# radius=0\nx\ty\tz\n1\t2\t3\n" END, 1, 2, "radius"},
     {"# radius=0.1x\nx\ty\tz\n1\t2\t3\n" END, 1, 3, "radius"},
     {"# radius=big\nx\ty\tz\n1\t2\t3\n" END, 1, 3, "radius"},
     {HEAD ROW END, 3, 3, "column names"},

@@ -911,8 +911,26 @@ static void test_free_fall(void) {
       }
 }
 
+/* What has no answer is refused, and nothing is written. */
+static void test_domains(void) {
+  const struct contact_law law = scene_default().law;
+  const double bad_speeds[] = {0, -1, GSL_NAN};
+  double result = 7, error = 8;
+  for (size_t k = 0; k < COUNT(bad_speeds); k++)
+    CHECK(closed_restitution(&law, bad_speeds[k], &result, &error) == GSL_EDOM);
+  const double bad_heights[] = {40 / law.kappa, 0, GSL_NAN};
+  for (size_t k = 0; k < COUNT(bad_heights); k++)
+    CHECK(closed_rebound_time(law.f0, law.kappa, g, bad_heights[k], &result,
+                              &error) == GSL_EDOM);
+  CHECK(closed_rebound_time(law.f0, law.kappa, 0, 1, &result, &error) ==
+        GSL_EDOM);
+  CHECK(closed_slip_share(-1, 1, 1, &result) == GSL_EDOM);
+  CHECK(result == 7 && error == 8);
+}
+
 int main(void) {
   gsl_set_error_handler_off();
+  test_domains();
   test_free_fall();
   test_elastic();
   test_restitution();

@@ -52,7 +52,7 @@ refuse 'an unknown ending' 2 '--output .*x.jpg: expected .*.png or .svg' \
   draw --output "$T/x.jpg" "$T/one"
 refuse 'an unknown ending' 2 '--output .*x.avi: expected .*.gif, .mp4' \
   movie --output "$T/x.avi" "$T/one"
-refuse 'no such frame' 2 '--frame 3: there are frames 0 to 2' \
+refuse 'no such frame' 3 '--frame 3: there are frames 0 to 2' \
   draw --frame 3 --output "$T/x.png" "$T/bed"
 refuse 'half a frame' 2 '--frame 0.5: expected a whole number' \
   draw --frame 0.5 --output "$T/x.png" "$T/bed"

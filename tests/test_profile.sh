@@ -114,6 +114,8 @@ refuse "boxes: none" 3 'bad: no boxes' --boxes "$T/bad" "$T/one"
 refuse "boxes: no file" 1 'nowhere' --boxes "$T/nowhere" "$T/one"
 refuse "boxes beside box" 2 '--boxes' --boxes "$T/boxes" --slab 1 "$T/one"
 refuse "until below" 2 'z0 < z1' --until -1 "$T/one"
+run analyze --slab 1e12 "$T/last"
+check "slabs: one taller than the box" is 'n == 1 && r["z0"] == 0 && r["z1"] == 1'
 refuse "too many slabs" 2 'at most' --slab 1e-9 "$T/one"
 
 # --- profile --------------------------------------------------------------------
