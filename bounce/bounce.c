@@ -25,6 +25,7 @@ struct drop {
 struct watch {
   struct integrator *it;
   const struct drop *drop;
+  bool fixed;  /* --step */
   bool adapts; /* the method to stiffness */
   struct stiffness_limits limits;
   double weight;        /* of the contact's energy in what cannot grow */
@@ -93,10 +94,11 @@ static double deepest(const struct drop *d, double touch, double energy) {
 }
 
 static struct watch watch_start(struct integrator *it, const struct drop *d,
-                                const char *method) {
+                                const struct integrate_options *o) {
   const double e = d->law.restitution;
-  struct watch w = {.it = it, .drop = d, .weight = 0.5 * (1 + e * e)};
-  const int status = integrate_limits(method, &w.limits);
+  struct watch w = {
+      .it = it, .drop = d, .fixed = o->step > 0, .weight = 0.5 * (1 + e * e)};
+  const int status = integrate_limits(o->method, &w.limits);
   if (status == GSL_ENOMEM)
     die(EXIT_IO, "out of memory");
   w.adapts = status != GSL_SUCCESS;
@@ -163,8 +165,9 @@ static void step_or_die(struct watch *w) {
   if (status != GSL_SUCCESS) {
     fflush(stdout);
     die(EXIT_INTEGRATION, "t=%.6g: %s", integrate_time(w->it),
-        status == GSL_FAILURE ? "no step is short enough for the tolerance"
-                              : gsl_strerror(status));
+        status != GSL_FAILURE ? gsl_strerror(status)
+        : w->fixed            ? "forces overflow with this --step"
+                              : "no step is short enough for the tolerance");
   }
   watch_step(w);
 }
@@ -306,7 +309,7 @@ int main(int argc, char **argv) {
         integrate.method, gsl_strerror(status));
   print_header(options);
   int code = EXIT_DONE;
-  struct watch w = watch_start(it, &drop, integrate.method);
+  struct watch w = watch_start(it, &drop, &integrate);
   if (rebound)
     code = print_rebound(&w, height, time);
   else

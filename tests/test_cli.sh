@@ -581,6 +581,9 @@ check 'bounce: rows' test "$(grep -c '^[0-9]' "$T/out")" = 5
 succeed 'bounce --rebound' bounce --rebound
 check 'bounce --rebound: columns' grep -qx \
   $'restitution\tkappa\tt_hard\tt_rebound\terror_percent\tz_peak' "$T/out"
+run bounce --method verlet --step 3
+check 'bounce --step, too long: exit status' test $status = 4
+check 'bounce --step, too long: message' one_line bounce 'with this --step'
 run bounce --rebound --time 1
 check 'bounce --rebound, too short: exit status' test $status = 5
 check 'bounce --rebound, too short: message' one_line bounce '--time'
