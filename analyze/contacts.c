@@ -336,6 +336,8 @@ int verb_contacts(int argc, char **argv) {
   frames_open(&frames, &input, argc, argv, operand);
   for (bool first = true; frames_next(&frames, &bed); first = false) {
     struct scene scene = frame_scene(&frames, &bed);
+    if (first)
+      frame_warn_rewritten(&frames);
     struct measured m = measure(&frames, &set, &scene, &bed);
     print_frame(&frames, &m, first);
     measured_free(&m);

@@ -9,7 +9,8 @@
 void frames_open(struct frames *f, const struct frames_options *o, int argc,
                  char **argv, int first) {
   if (first + 1 < argc)
-    die(EXIT_USAGE, "'%s': expected one file", argv[first + 1]);
+    die(EXIT_USAGE, "'%s' after '%s': expected one file", argv[first + 1],
+        argv[first]);
   f->in = input_open(first < argc ? argv[first] : NULL, &f->name);
   if (f->in == stdin && isatty(STDIN_FILENO))
     die(EXIT_USAGE, "expected a bed on standard input or a file; see --help");

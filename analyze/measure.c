@@ -5,6 +5,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include "box.h"
+#include "radius.h"
 #include "scene_options.h"
 
 void box_check(const struct option_list *box) {
@@ -24,6 +25,14 @@ struct scene frame_scene(const struct frames *f, const struct bed *b) {
   if (wrong)
     frame_refuse(f, b, wrong);
   return s;
+}
+
+void frame_warn_rewritten(const struct frames *f) {
+  const double r = radius_dynamics(frames_header(f));
+  if (r > 0)
+    warn("%s: the radius was rewritten: contacts and forces are those of the "
+         "new one, not of radius_dynamics=%g, at which the bed settled",
+         f->name, r);
 }
 
 void frame_check(const struct frames *f, const struct bed *b, int status) {

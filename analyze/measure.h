@@ -22,6 +22,10 @@ void box_check(const struct option_list *box);
    settle's defaults. Exits with EXIT_INPUT on a bad key. */
 struct scene frame_scene(const struct frames *f, const struct bed *b);
 
+/* Warns if the frame's radius is not that of the dynamics, since forces then
+   are not those that hold the bed. */
+void frame_warn_rewritten(const struct frames *f);
+
 /* Exits with EXIT_INPUT and one line: the input, the frame's time and why it
    cannot be measured. */
 _Noreturn void frame_refuse(const struct frames *f, const struct bed *b,

@@ -98,6 +98,8 @@ int verb_rest(int argc, char **argv) {
   frames_open(&frames, &input, argc, argv, operand);
   for (bool first = true; frames_next(&frames, &bed); first = false) {
     struct scene scene = frame_scene(&frames, &bed);
+    if (first)
+      frame_warn_rewritten(&frames);
     double united;
     frame_check(&frames, &bed,
                 volume_union(bed.n, bed.x, bed.r, box.at, &united));

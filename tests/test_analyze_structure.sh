@@ -226,6 +226,14 @@ done
 refuse 'no bins' 2 'bins' gr --bins 0 "$T/sc"
 refuse 'no cutoff' 2 'cutoff' order --cutoff 0 "$T/sc"
 refuse 'a second file' 2 'one file' rest "$T/sc" "$T/sc"
+refuse 'a verb that is none' 2 "after 'fractoin'" fractoin "$T/sc"
+for verb in contacts rest; do
+  printf '# radius=0.09\n# radius_dynamics=0.1\nx\ty\tz\n1\t1\t1\n# %s\n' \
+    status=ok >"$T/rewritten"
+  "$B/analyze" $verb "$T/rewritten" >/dev/null 2>"$T/err"
+  is "$verb: a rewritten radius: exit status" $? 0
+  check "$verb: a rewritten radius" grep -q 'radius_dynamics=0.1,' "$T/err"
+done
 for verb in contacts rest order; do
   refuse "$verb: one place twice" 3 'same: t=0: .*same centre' $verb "$T/same"
 done
