@@ -95,21 +95,6 @@ static void print_names(const struct columns *c) {
          c->sampled ? "\tsampled_sum\tsampled_union" : "");
 }
 
-/* A clipped ball is a sum of parts of its own size, and rounding of those is
-   all that is left where the box is this much smaller than the largest ball's
-   cube: six digits and fewer. */
-static const double smallest_box = 1e-9;
-
-static void check_sizes(const struct frames *f, const struct bed *bed,
-                        const struct boxes *boxes) {
-  double largest = 0;
-  for (size_t i = 0; i < bed->n; i++)
-    largest = GSL_MAX(largest, bed->r[i]);
-  for (size_t k = 0; k < boxes->count; k++)
-    if (box_volume(boxes->at[k]) < smallest_box * gsl_pow_3(largest))
-      frame_refuse(f, bed, "a box too small beside a sphere for its volume");
-}
-
 static void print_row(const struct bed *bed, const double box[6],
                       const struct columns *c) {
   const double volume = box_volume(box);
@@ -189,7 +174,8 @@ int verb_fraction(int argc, char **argv) {
   struct bed bed = {0};
   frames_open(&frames, &input, argc, argv, operand);
   for (bool first = true; frames_next(&frames, &bed); first = false) {
-    check_sizes(&frames, &bed, &boxes);
+    for (size_t k = 0; k < boxes.count; k++)
+      frame_check_box(&frames, &bed, boxes.at[k]);
     if (first)
       print_names(&columns);
     else if (columns.box)

@@ -19,6 +19,20 @@ void frame_refuse(const struct frames *f, const struct bed *b,
   die(EXIT_INPUT, "%s: t=%g: %s", f->name, b->t, why);
 }
 
+/* A clipped ball is a sum of parts of its own size, and rounding of those is
+   all that is left where the box is this much smaller than the largest ball's
+   cube: six digits and fewer. */
+static const double smallest_box = 1e-9;
+
+void frame_check_box(const struct frames *f, const struct bed *b,
+                     const double box[6]) {
+  double largest = 0;
+  for (size_t i = 0; i < b->n; i++)
+    largest = GSL_MAX(largest, b->r[i]);
+  if (box_volume(box) < smallest_box * gsl_pow_3(largest))
+    frame_refuse(f, b, "a box too small beside a sphere for its volume");
+}
+
 struct scene frame_scene(const struct frames *f, const struct bed *b) {
   struct scene s;
   const char *wrong = scene_from_header(&s, frames_header(f));

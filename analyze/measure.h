@@ -31,6 +31,11 @@ void frame_warn_rewritten(const struct frames *f);
 _Noreturn void frame_refuse(const struct frames *f, const struct bed *b,
                             const char *why);
 
+/* Exits likewise if the box is so small beside a sphere that no digits of the
+   clipped volume would be right. */
+void frame_check_box(const struct frames *f, const struct bed *b,
+                     const double box[6]);
+
 /* Exits with one line on a GSL status that is not success: no memory, or a
    frame that cannot be measured. */
 void frame_check(const struct frames *f, const struct bed *b, int status);

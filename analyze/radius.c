@@ -208,6 +208,7 @@ int verb_radius(int argc, char **argv) {
     struct bed_header header = copy_header(frames_header(&frames));
     struct scene walls = frame_scene(&frames, &bed);
     const double nominal = nominal_radius(&frames, &bed);
+    frame_check_box(&frames, &bed, s.box);
     if (report) {
       if (first)
         puts("t\tkeep\tradius\tsum\tunion\toverlaps\tmean_overlap\t"

@@ -101,6 +101,7 @@ int verb_rest(int argc, char **argv) {
     if (first)
       frame_warn_rewritten(&frames);
     double united;
+    frame_check_box(&frames, &bed, box.at);
     frame_check(&frames, &bed,
                 volume_union(bed.n, bed.x, bed.r, box.at, &united));
     const struct energies e = energies(&frames, &scene, &bed);

@@ -11,7 +11,7 @@
   VERB(contacts, "coordination, overlaps, forces, weight on walls, fabric")    \
   VERB(rest, "energies, unbalanced force, largest speed")                      \
   VERB(gr, "pair correlation")                                                 \
-  VERB(order, "bond order q4 and q6: fcc, hcp or none")                        \
+  VERB(order, "bond order q4 and q6: fcc, hcp, bcc or none")                        \
   VERB(radius, "the geometry's radius, and the bed with another one")          \
   VERB(export, "the bed for other programs, or as voxels")                     \
   VERB(draw, "a picture of one frame, PNG or SVG")                             \
