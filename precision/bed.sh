@@ -6,8 +6,8 @@
 # what made it. RUN is a command to run it under, such as a lock.
 # Columns: the settings, "-" where settle chose; status (ok, gave_up where no
 # step was short enough, stuck where LIMIT seconds of CPU time were not enough);
-# cost; fractions; and, of frames-K, spheres whose centre was ever outside the
-# unit square or below the floor, and the kinetic energy per sphere (J), mean
+# cost; fractions; spheres whose centre is outside the unit square or below the
+# floor in the end; and, of frames-K, the kinetic energy per sphere (J), mean
 # over the last eighth of the time and over the one before it.
 set -u
 export LC_ALL=C
@@ -62,7 +62,7 @@ motion=$(awk -F '\t' '
     }
     kinetic[frames] += $(at["m"]) * e / 2
     x = $(at["x"]); y = $(at["y"]); z = $(at["z"])
-    if (!(x > 0 && x < 1 && y > 0 && y < 1 && z > 0)) out[$1] = 1
+    outside[frames] += !(x > 0 && x < 1 && y > 0 && y < 1 && z > 0)
   }
   function mean(a, b,  k, s, m) {
     for (k = 1; k <= frames; k++)
@@ -70,10 +70,8 @@ motion=$(awk -F '\t' '
     return m ? s / m : "nan"
   }
   END {
-    outside = 0
-    for (i in out) outside++
     end = t[frames]
-    print outside "\t" mean(0.875 * end, end) "\t" mean(0.75 * end, 0.875 * end)
+    print outside[frames] + 0 "\t" mean(0.875 * end, end) "\t" mean(0.75 * end, 0.875 * end)
   }' "$T/bed")
 
 row=

@@ -1,10 +1,10 @@
 # Whole beds: error of the fraction against CPU time by method and tolerance.
-# One file a run under build/beds, named by the options of settle that made it
+# One file a run under build/data/beds, named by the options of settle that made it
 # (precision/bed.sh), so that a stopped make goes on where it was. The CPU times
 # of the chart come from the runs under timed/, which have the machine to
 # themselves as far as these rules go: others wait for the lock meanwhile.
 # QUICK=1: fewer, smaller and shorter runs, in a directory of their own.
-BEDS := $(B)/beds$(if $(QUICK),-quick)
+BEDS := $(B)/$(if $(QUICK),quick/)data/beds
 SHARED := flock -s $(B)/timing.lock
 TIMED := flock -x $(B)/timing.lock
 

@@ -4,7 +4,7 @@
 # A cell is a panel (model, method; -free without the limit by travel, -short
 # with lmax = 0.1 m for soft spheres as well), a tolerance or step, and kappa; of its seeds it shows the worst outcome:
 #   stopped    an energy no fall can give (over 100 J a sphere) or no number
-#   tunnelled  a sphere's centre was outside a wall
+#   tunnelled  a sphere's centre is outside a wall in the end
 #   gave_up    no step was short enough for the tolerance, or the CPU time did
 #              not suffice for steps that short
 #   jitter     kinetic energy per sphere above 1e-3 J (4 cm/s) in the last
