@@ -6,8 +6,8 @@
 # what made it. RUN is a command to run it under, such as a lock.
 # Columns: the settings, "-" where settle chose; status (ok, gave_up where no
 # step was short enough, stuck where LIMIT seconds of CPU time were not enough);
-# cost; fractions; spheres whose centre is outside the unit square or below the
-# floor in the end; and, of frames-K, the kinetic energy per sphere (J), mean
+# cost; fractions up to 1 m above the base; spheres whose centre is outside the
+# walls in the end; and, of frames-K, the kinetic energy per sphere (J), mean
 # over the last eighth of the time and over the one before it.
 set -u
 export LC_ALL=C
@@ -40,15 +40,17 @@ case $code in
     exit 1
     ;;
 esac
+base=${value[base]:-1,1}
 fractions=$'nan\tnan'
 if [[ $status == ok ]]; then
-  fractions=$("$B/analyze" "$T/bed" | awk 'END { print $2 "\t" $3 }') || exit 1
+  fractions=$("$B/analyze" --box "0,${base%,*},0,${base#*,},0,1" "$T/bed" |
+    awk 'END { print $2 "\t" $3 }') || exit 1
 fi
 stat() {
   awk -v key="$1" '$1 == key { v = $2 } END { print v == "" ? "nan" : v }' \
     "$T/stats" 2>/dev/null || echo nan
 }
-motion=$(awk -F '\t' '
+motion=$(awk -F '\t' -v width="${base%,*}" -v depth="${base#*,}" '
   /^# t=/ { t[++frames] = substr($0, 5) }
   /^#/ || NF < 5 { next }
   $1 == "id" { for (k = 1; k <= NF; k++) at[$k] = k; next }
@@ -62,7 +64,7 @@ motion=$(awk -F '\t' '
     }
     kinetic[frames] += $(at["m"]) * e / 2
     x = $(at["x"]); y = $(at["y"]); z = $(at["z"])
-    outside[frames] += !(x > 0 && x < 1 && y > 0 && y < 1 && z > 0)
+    outside[frames] += !(x > 0 && x < width && y > 0 && y < depth && z > 0)
   }
   function mean(a, b,  k, s, m) {
     for (k = 1; k <= frames; k++)

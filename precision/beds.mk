@@ -26,6 +26,7 @@ bed_runs = $(patsubst %,$(BEDS)/timed/$(1)/seed-%.tsv,$(call first,$(2))) \
 ifeq ($(QUICK),)
 BED_SEEDS := $(shell seq 40)
 BED_SIZE :=
+BED_OPTIONS :=
 BED_MERSON := 20
 BED_PAIRS := 4
 BED_RKC := 20
@@ -35,16 +36,17 @@ PAIR_TOLERANCES := 10 1 0.1
 RKC_TOLERANCES := 1 0.1 0.01 1e-3 5e-4 1e-4
 VERLET_STEPS := 1e-3 4e-4 2e-4 1e-4 5e-5 2.5e-5
 else
-BED_SEEDS := 1 2 3
-BED_SIZE := count-64/time-2/
-BED_MERSON := 3
+BED_SEEDS := 1 2
+BED_SIZE := base-0.5,0.5/count-40/time-2/
+BED_OPTIONS := --base 0.5,0.5 --count 40 --time 2
+BED_MERSON := 2
 BED_PAIRS := 1
-BED_RKC := 3
-BED_VERLET := 3
-BED_BASIC := 3
+BED_RKC := 2
+BED_VERLET := 2
+BED_BASIC := 2
 PAIR_TOLERANCES := 0.1
 RKC_TOLERANCES := 0.1 5e-4
-VERLET_STEPS := 1e-3 1e-4
+VERLET_STEPS := 1e-3 2.5e-5
 endif
 
 full := model-rotation
@@ -70,4 +72,28 @@ BED_RUNS += \
   $(foreach h,$(VERLET_STEPS),\
     $(call bed_runs,$(plain)/method-verlet/step-$(h),3,$(BED_VERLET)))
 
-bed-runs: $(BED_RUNS)
+# Tolerances in order, so that charts join them
+$(BEDS)/settling.tsv: $(BED_RUNS) precision/settling.awk
+	awk -f precision/settling.awk $(BED_RUNS) > $@
+BED_FIGURES := $(B)/$(if $(QUICK),quick/)figures
+settling: $(BED_FIGURES)/precision-settling.svg $(BED_FIGURES)/precision-settling.md ## error of a bed's fraction against CPU time: which method to take
+$(BED_FIGURES)/precision-settling.svg: $(BEDS)/settling.tsv plots/settling.gp \
+  plots/style.gp
+	@mkdir -p $(@D)
+	gnuplot -c plots/settling.gp $< $@
+	gnuplot -c plots/settling.gp $< $(@:.svg=.png)
+$(BED_FIGURES)/precision-settling.md: $(BEDS)/settling.tsv bench/markdown.awk
+	@mkdir -p $(@D)
+	awk -f bench/markdown.awk $< > $@
+
+# Seed by seed: rkc as settle has it, and Merson with two tolerances
+SEED_RUNS := $(foreach m,merson/tol-0.01 merson/tol-0.1 rkc/tol-5e-4,\
+  $(call bed_runs,$(full)/method-$(m),$(if $(filter rkc/%,$(m)),3,1),$(BED_RKC)))
+seeds: $(BED_FIGURES)/precision-seeds.md ## rkc beside Merson, seed by seed
+	@cat $<
+$(BED_FIGURES)/precision-seeds.md: $(SEED_RUNS) precision/seeds.awk
+	@mkdir -p $(@D)
+	awk -f precision/seeds.awk $(SEED_RUNS) > $@
+
+precision: settling $(BED_FIGURES)/precision-seeds.md
+.PHONY: settling seeds

@@ -3,8 +3,9 @@
 #   awk -f settling.awk ROW...
 # What runs are compared with is Merson's method at its smallest tolerance. With
 # friction its bed of the same seed: difference is the mean over seeds of the
-# union less its, interval the half width of that mean's 95 % confidence, and
-# largest the largest difference of any seed. Without friction settling is
+# union less its, interval the half width of that mean's 95 % confidence, rms
+# and largest the root mean square and the largest over the seeds; spread is the
+# standard deviation of the union itself over them. Without friction settling is
 # chaotic and only the means over seeds compare. CPU seconds are those of runs
 # that had the machine to themselves, under timed/.
 BEGIN {
@@ -17,7 +18,8 @@ FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
 function get(name) { return $(at[name]) }
 {
   setting = get("step") == "-" ? get("tol") : get("step")
-  block = get("model") "\t" get("method")
+  fixed = get("step") != "-" && get("method") != "verlet"
+  block = get("model") "\t" get("method") (fixed ? " fixed" : "")
   run = block "\t" setting
   if (!(block in blocks)) {
     blocks[block] = ++nblocks
@@ -38,7 +40,7 @@ function get(name) { return $(at[name]) }
     timed[run]++
   }
   model = get("model")
-  if (get("method") == "merson" && \
+  if (get("method") == "merson" && !fixed && \
       (!(model in sharp) || setting + 0 < sharp[model] + 0))
     sharp[model] = setting
 }
@@ -54,8 +56,12 @@ function moments(n,  i, s, v) {
   variance = n > 1 ? v / (n - 1) / n : 0
 }
 function print_run(block, setting,   run, ref, i, j, n, m, v, mv, paired, \
-    largest, status) {
+    largest, spread, status) {
   run = block "\t" setting
+  for (i = 1; i <= count[run]; i++) x[i] = union[run, i]
+  moments(count[run])
+  spread = count[run] > 1 && !failed[run] ? \
+    sprintf("%.6f", sqrt(variance * count[run])) : "nan"
   split(block, part, "\t")
   ref = part[1] "\tmerson\t" sharp[part[1]]
   paired = part[1] != "basic"
@@ -71,6 +77,8 @@ function print_run(block, setting,   run, ref, i, j, n, m, v, mv, paired, \
     moments(n)
     m = mean
     v = variance
+    for (i = rms = 0; i++ < n;) rms += x[i]^2
+    rms = sqrt(rms / n)
     df = n - 1
   } else if (!failed[run]) {
     for (i = 1; i <= count[ref]; i++) x[i] = union[ref, i]
@@ -85,20 +93,21 @@ function print_run(block, setting,   run, ref, i, j, n, m, v, mv, paired, \
     df = n + count[ref] - 2
   }
   status = failed[run] ? "failed" : run == ref ? "reference" : "ok"
-  printf "%s\t%s\t%s\t%s\t%d\t%s\t%.0f\t", part[1], part[2], tol[run], \
+  printf "%s\t%s\t%s\t%s\t%d\t%s\t%.0f\t%s\t", part[1], part[2], tol[run], \
     step[run], count[run], timed[run] ? sprintf("%.3f", cpu[run] / timed[run]) \
-    : "nan", evaluations[run] / count[run]
+    : "nan", evaluations[run] / count[run], spread
   if (status == "ok" && n)
-    printf "%+.6f\t%.6f\t%s\t%s\n", m, \
+    printf "%+.6f\t%.6f\t%s\t%s\t%s\n", m, \
       (n > 1 ? quantile(df) * sqrt(v) : "nan"), \
+      paired ? sprintf("%.6f", rms) : "-", \
       paired ? sprintf("%.6f", largest) : "-", status
   else
-    printf "nan\tnan\tnan\t%s\n", status
+    printf "nan\tnan\tnan\tnan\t%s\n", status
 }
 END {
   for (b = 1; b <= nblocks; b++) {
     print (b > 1 ? "\n\n" : "") "variant\tmethod\ttol\tstep\tseeds\t" \
-      "cpu_seconds\tevaluations\tdifference\tinterval\tlargest\tstatus"
+      "cpu_seconds\tevaluations\tspread\tdifference\tinterval\trms\tlargest\tstatus"
     n = split(runs[name[b]], s, "\t")
     for (i = 1; i <= n; i++) print_run(name[b], s[i])
   }

@@ -45,3 +45,66 @@ $(MAP_BASIC): export LIMIT := 8
 
 $(BEDS)/map.tsv: $(MAP_RUNS) stability/map.sh
 	stability/map.sh $(MAP_RUNS) > $@
+
+# The wrong bed: the runs of the settling with friction and rotation, Merson at
+# fixed steps, and the two pairs that are too dear for more than one seed.
+ifeq ($(QUICK),)
+WRONG_RUNS := $(filter %,$(foreach h,4e-4 2e-4 1e-4 5e-5,\
+    $(call bed_runs,$(full)/method-merson/step-$(h),0,2)) \
+  $(foreach m,rkck rk8pd,$(foreach t,10 0.1,\
+    $(call bed_runs,$(full)/method-$(m)/tol-$(t),0,1))))
+endif
+WRONG_BEDS := $(filter $(BEDS)/$(full)/% $(BEDS)/timed/$(full)/%,$(BED_RUNS)) \
+  $(WRONG_RUNS)
+$(BEDS)/wrong.tsv: $(WRONG_BEDS) precision/settling.awk
+	awk -f precision/settling.awk $(WRONG_BEDS) > $@
+$(BEDS)/slip.tsv: stability/slip.awk | $(B)/settle
+	@mkdir -p $(@D)
+	$(B)/settle --quiet $(BED_OPTIONS) | awk -f $< > $@
+stability-wrong-bed: $(F)/$(if $(QUICK),quick/)stability-wrong-bed.svg ## where friction integrated badly melts the bed
+$(F)/$(if $(QUICK),quick/)stability-wrong-bed.svg: $(BEDS)/wrong.tsv \
+  $(BEDS)/slip.tsv plots/wrong-bed.gp plots/style.gp
+	@mkdir -p $(@D)
+	gnuplot -c plots/wrong-bed.gp $(BEDS)/wrong.tsv $@ $(BEDS)/slip.tsv
+	gnuplot -c plots/wrong-bed.gp $(BEDS)/wrong.tsv $(@:.svg=.png) \
+	  $(BEDS)/slip.tsv
+
+stability-map: $(F)/$(if $(QUICK),quick/)stability-map.svg ## what became of beds by tolerance, kappa and variant
+$(F)/$(if $(QUICK),quick/)stability-map.svg: $(BEDS)/map.tsv plots/map.gp \
+  plots/style.gp
+	@mkdir -p $(@D)
+	gnuplot -c plots/map.gp $< $@
+	gnuplot -c plots/map.gp $< $(@:.svg=.png)
+
+# Does kappa = 500 vibrate? Kinetic energy per sphere over time of the variant
+# without friction; outputs: steps no longer than the time between 400 outputs
+# in 8 s, and no other limit, as in the author's program.
+VIBRATION := $(BEDS)/vibration
+VIBRATION_RUNS := 30-rkc 150-rkc 150-merson 500-rkc 500-merson 500-loose \
+  500-outputs
+VIBRATION_30-rkc := --kappa 30 --lmax 0.33
+VIBRATION_150-rkc := --kappa 150
+VIBRATION_150-merson := --kappa 150 --method merson
+VIBRATION_500-rkc := --kappa 500
+VIBRATION_500-merson := --kappa 500 --method merson
+VIBRATION_500-loose := --kappa 500 --method merson --tol 10
+VIBRATION_500-outputs := --kappa 500 --method merson --travel 0 --hmax 0.02005
+define vibration_run
+$(VIBRATION)/$(1).tsv: | $(B)/settle
+	@mkdir -p $$(@D)
+	$(B)/settle --quiet --model basic $(VIBRATION_$(1)) \
+	  $(or $(BED_OPTIONS),--time 16) --frames 401 | \
+	  awk -v run=$(1) -f stability/kinetic.awk > $$@
+endef
+$(foreach r,$(VIBRATION_RUNS),$(eval $(call vibration_run,$(r))))
+$(VIBRATION).tsv: $(VIBRATION_RUNS:%=$(VIBRATION)/%.tsv)
+	awk 'FNR == 1 && NR > 1 { print "\n" } 1' $^ > $@
+stability-vibration: $(F)/$(if $(QUICK),quick/)stability-vibration.svg ## does kappa = 500 vibrate: kinetic energy over time
+$(F)/$(if $(QUICK),quick/)stability-vibration.svg: $(VIBRATION).tsv \
+  plots/vibration.gp plots/style.gp
+	@mkdir -p $(@D)
+	gnuplot -c plots/vibration.gp $< $@
+	gnuplot -c plots/vibration.gp $< $(@:.svg=.png)
+
+STABILITY_FIGURES += stability-map stability-wrong-bed stability-vibration
+.PHONY: stability-map stability-wrong-bed stability-vibration
