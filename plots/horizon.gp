@@ -22,6 +22,8 @@ do for [b=1:blocks] {
   if (variant[b] eq "basic") { basic = basic.sprintf(" %d", b) }
 }
 nth(list, i) = i > words(list) ? 1 : int(word(list, i))
+dash(m) = m eq "again" ? 2 : 1
+colour(m) = m eq "again" ? grey : method_colour(m)
 title_of(m) = m eq "again" ? "two sharp runs" : method_title(m)
 set logscale y
 set yrange [1e-13:10]
@@ -39,9 +41,8 @@ do for [p=1:2] {
   set label 1 word("'friction and rotation' 'no friction'", p) \
     at graph 0.98,0.07 right
   plot for [i=1:words(list)] ARG1 index nth(list, i)-1 using "t":"distance" \
-    with lines lw line dt (method[nth(list, i)] eq "again" ? 2 : 1) \
-    lc rgb (method[nth(list, i)] eq "again" ? grey : \
-      method_colour(method[nth(list, i)])) title title_of(method[nth(list, i)])
+    with lines lw line dt dash(method[nth(list, i)]) \
+    lc rgb colour(method[nth(list, i)]) title title_of(method[nth(list, i)])
   unset key
 }
 unset multiplot

@@ -20,6 +20,8 @@ $(foreach m,$(PAIRS) rkc msbdf,\
   $(foreach s,trajectory-200 trajectory-200-basic,$(eval RUNGS_$(s)-$(m) := \
     1e-1 1e-2 1e-3 1e-4 1e-5 1e-6)))
 # dense matrices of 1800 unknowns
+$(if $(QUICK),$(foreach s,trajectory-8 trajectory-8-basic,\
+  $(eval METHODS_$(s) := merson rk8pd rkc verlet)))
 METHODS_trajectory-200 := $(PAIRS) rkc verlet
 METHODS_trajectory-200-basic := $(PAIRS) rkc verlet
 
@@ -28,7 +30,7 @@ $(foreach s,$(TRAJECTORIES),$(eval $(call precision_set,$(s)))\
   $(foreach c,evaluations cpu_seconds,\
   $(eval $(call precision_chart,$(s),position,$(c)))))
 TRAJECTORY_CHARTS := $(filter-out $(TRAJECTORY_CHARTS),$(PRECISION_CHARTS))
-precision: $(TRAJECTORY_CHARTS:%=$(PRECISION_OUT)/precision-%.svg)
+trajectories: $(TRAJECTORY_CHARTS:%=$(PRECISION_OUT)/precision-%.svg) ## where falling spheres are, against work; and how long that is determined
 
 # Distance of runs from a sharp one over time, and of two sharp ones from each
 # other. Beds of settle, whose frames are interpolated between steps.
@@ -60,4 +62,6 @@ $(PRECISION_OUT)/precision-horizon.svg: $(HORIZON).tsv plots/horizon.gp plots/st
 	@mkdir -p $(@D)
 	gnuplot -c plots/horizon.gp $< $@
 	gnuplot -c plots/horizon.gp $< $(@:.svg=.png)
-precision: $(PRECISION_OUT)/precision-horizon.svg
+trajectories: $(PRECISION_OUT)/precision-horizon.svg
+precision: trajectories
+.PHONY: trajectories

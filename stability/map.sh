@@ -45,6 +45,7 @@ awk -F '\t' -v OFS='\t' '
     e = get("kinetic")
     kinetic[cell] = e > kinetic[cell] ? e : kinetic[cell] + 0
     was[cell, i] = e !~ /^[0-9]/ || e > 100 ? "stopped" : \
+      get("status") == "stuck" ? "gave_up" : \
       get("outside") > 0 ? "tunnelled" : \
       get("status") != "ok" ? "gave_up" : \
       e > 0.01 && e > get("kinetic_before") / 2 ? "jitter" : "settled"
@@ -67,8 +68,10 @@ awk -F '\t' -v OFS='\t' '
       outcome = worse[worst]
       for (seeds = i = 0; i++ < of[cell];) seeds += was[cell, i] == outcome
       limit = cell ~ /^basic/ ? 0.02 : 0.005
-      if (outcome == "settled" && difference > limit) outcome = "denser"
-      if (outcome == "settled" && difference < -limit) outcome = "looser"
+      if (outcome == "settled" && done && difference > limit)
+        outcome = "denser"
+      if (outcome == "settled" && done && difference < -limit)
+        outcome = "looser"
       print cell, outcome, seeds, of[cell], difference, kinetic[cell]
     }
   }' "$@"
