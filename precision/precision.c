@@ -21,6 +21,7 @@ static const struct precision_scene *const scenes[] = {
     &scene_exponential,
     &scene_spring,
     &scene_walton_braun,
+    &scene_trajectory,
 };
 /* clang-format on */
 

@@ -51,6 +51,7 @@ struct precision_scene {
 
 extern const struct precision_scene scene_bounce, scene_collision,
     scene_restitution, scene_toda_open, scene_toda_closed, scene_rolling,
-    scene_transition, scene_exponential, scene_spring, scene_walton_braun;
+    scene_transition, scene_exponential, scene_spring, scene_walton_braun,
+    scene_trajectory;
 
 #endif

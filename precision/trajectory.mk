@@ -1,0 +1,67 @@
+# Trajectories of falling spheres, by the rules of precision.mk; each over the
+# time in which two tight runs agree (how long that is: horizon). Steps are
+# limited by travel as in settle.
+SET_trajectory-8 := trajectory --travel 1 --time 2
+TITLE_trajectory-8 := 2 × 2 × 2 spheres with friction, 2 s
+SET_trajectory-8-basic := trajectory --travel 1 --friction 0 --time 2
+TITLE_trajectory-8-basic := 2 × 2 × 2 spheres, no friction, 2 s
+SET_trajectory-200 := trajectory --travel 1 --count 200 --time 0.8
+TITLE_trajectory-200 := 200 spheres with friction, 0.8 s
+SET_trajectory-200-basic := trajectory --travel 1 --count 200 --friction 0 --time 1
+TITLE_trajectory-200-basic := 200 spheres, no friction, 1 s
+TRAJECTORIES := trajectory-8 trajectory-8-basic \
+  $(if $(QUICK),,trajectory-200 trajectory-200-basic)
+YLABEL_position := error of position (diameters)
+$(foreach s,$(TRAJECTORIES),$(eval STEP_$(s) := 4e-4)\
+  $(eval ERRORS_$(s) := position)$(eval ORDERS_$(s) := 1 2 4))
+$(foreach m,$(PAIRS) rkc msbdf,\
+  $(foreach s,trajectory-8 trajectory-8-basic,$(eval RUNGS_$(s)-$(m) := \
+    1e-1 1e-2 1e-3 1e-4 1e-5 1e-6 1e-7 1e-8))\
+  $(foreach s,trajectory-200 trajectory-200-basic,$(eval RUNGS_$(s)-$(m) := \
+    1e-1 1e-2 1e-3 1e-4 1e-5 1e-6)))
+# dense matrices of 1800 unknowns
+$(if $(QUICK),$(foreach s,trajectory-8 trajectory-8-basic,\
+  $(eval METHODS_$(s) := merson rk8pd rkc verlet)))
+METHODS_trajectory-200 := $(PAIRS) rkc verlet
+METHODS_trajectory-200-basic := $(PAIRS) rkc verlet
+
+TRAJECTORY_CHARTS := $(PRECISION_CHARTS)
+$(foreach s,$(TRAJECTORIES),$(eval $(call precision_set,$(s)))\
+  $(foreach c,evaluations cpu_seconds,\
+  $(eval $(call precision_chart,$(s),position,$(c)))))
+TRAJECTORY_CHARTS := $(filter-out $(TRAJECTORY_CHARTS),$(PRECISION_CHARTS))
+trajectories: $(TRAJECTORY_CHARTS:%=$(PRECISION_OUT)/precision-%.svg) ## where falling spheres are, against work; and how long that is determined
+
+# Distance of runs from a sharp one over time, and of two sharp ones from each
+# other. Beds of settle, whose frames are interpolated between steps.
+HORIZON_METHODS := reference merson rkc verlet
+HORIZON_reference := --method rk8pd --control standard --tol 1e-10
+HORIZON_again := --method rk8pd --control standard --tol 1e-9
+HORIZON_merson := --method merson
+HORIZON_rkc := --method rkc
+HORIZON_verlet := --method verlet --step 2.5e-5
+HORIZON_SIZE := --lmax 0.2 $(if $(QUICK),--count 32 --time 0.8 --frames 41,--time 3 --frames 151)
+HORIZON := $(PRECISION_DATA)/horizon
+define horizon_run
+$(HORIZON)/$(1)-$(2).bed: | $(B)/settle
+	@mkdir -p $$(@D)
+	$(B)/settle --quiet --model $(1) $(HORIZON_$(2)) $(HORIZON_SIZE) > $$@
+endef
+HORIZON_RUNS := $(foreach v,basic rotation,\
+  $(foreach m,reference again merson rkc verlet,$(HORIZON)/$(v)-$(m).bed))
+$(foreach v,basic rotation,$(foreach m,reference again merson rkc verlet,\
+  $(eval $(call horizon_run,$(v),$(m)))))
+$(HORIZON).tsv: precision/horizon.awk $(HORIZON_RUNS)
+	for v in basic rotation; do \
+	  for m in again merson rkc verlet; do \
+	    awk -v variant=$$v -v method=$$m -f $< $(HORIZON)/$$v-reference.bed \
+	      $(HORIZON)/$$v-$$m.bed || exit; \
+	  done; \
+	done > $@
+$(PRECISION_OUT)/precision-horizon.svg: $(HORIZON).tsv plots/horizon.gp plots/style.gp
+	@mkdir -p $(@D)
+	gnuplot -c plots/horizon.gp $< $@
+	gnuplot -c plots/horizon.gp $< $(@:.svg=.png)
+trajectories: $(PRECISION_OUT)/precision-horizon.svg
+precision: trajectories
+.PHONY: trajectories
