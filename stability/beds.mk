@@ -50,7 +50,7 @@ $(BEDS)/map.tsv: $(MAP_RUNS) stability/map.sh
 # fixed steps, and the two pairs that are too dear for more than one seed.
 ifeq ($(QUICK),)
 WRONG_RUNS := $(filter %,$(foreach h,4e-4 2e-4 1e-4 5e-5,\
-    $(call bed_runs,$(full)/method-merson/step-$(h),0,2)) \
+    $(call bed_runs,$(full)/method-merson/step-$(h),0,4)) \
   $(foreach m,rkck rk8pd,$(foreach t,10 0.1,\
     $(call bed_runs,$(full)/method-$(m)/tol-$(t),0,1))))
 endif
