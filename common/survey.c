@@ -27,7 +27,9 @@ void survey_take(const struct kernel_data *k, size_t n, const double *y,
     double u[3];
     vec3_sub(y + i * stride, y + j * stride, u);
     const double ri = k->radius[i], rj = k->radius[j];
-    add_contact(&k->law, vec3_norm(u) - ri - rj, GSL_MIN(ri, rj), i, s);
+    const double squared = vec3_dot(u, u), reach = ri + rj + k->law.lmax;
+    if (squared <= (1 + 1e-9) * reach * reach) /* two fifths are further */
+      add_contact(&k->law, sqrt(squared) - ri - rj, GSL_MIN(ri, rj), i, s);
   }
   for (size_t p = 0; p < k->wall_contacts; p++) {
     const size_t i = k->wall_sphere[p], m = k->wall_id[p];
