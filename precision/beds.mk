@@ -73,7 +73,7 @@ BED_RUNS += \
     $(call bed_runs,$(plain)/method-verlet/step-$(h),3,$(BED_VERLET)))
 
 # Tolerances in order, so that charts join them
-$(BEDS)/settling.tsv: $(BED_RUNS) precision/settling.awk
+$(BEDS)/settling.tsv: $(BED_RUNS) precision/settling.awk precision/beds.mk
 	awk -f precision/settling.awk $(BED_RUNS) > $@
 BED_FIGURES := $(B)/$(if $(QUICK),quick/)figures
 settling: $(BED_FIGURES)/precision-settling.svg $(BED_FIGURES)/precision-settling.md ## error of a bed's fraction against CPU time: which method to take
@@ -91,7 +91,7 @@ SEED_RUNS := $(foreach m,merson/tol-0.01 merson/tol-0.1 rkc/tol-5e-4,\
   $(call bed_runs,$(full)/method-$(m),$(if $(filter rkc/%,$(m)),3,1),$(BED_RKC)))
 seeds: $(BED_FIGURES)/precision-seeds.md ## rkc beside Merson, seed by seed
 	@cat $<
-$(BED_FIGURES)/precision-seeds.md: $(SEED_RUNS) precision/seeds.awk
+$(BED_FIGURES)/precision-seeds.md: $(SEED_RUNS) precision/seeds.awk precision/beds.mk
 	@mkdir -p $(@D)
 	awk -f precision/seeds.awk $(SEED_RUNS) > $@
 
