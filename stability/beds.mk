@@ -43,20 +43,20 @@ MAP_RUNS := $(sort $(MAP_BASIC) \
 # several times what those take that end
 $(MAP_BASIC): export LIMIT := 8
 
-$(BEDS)/map.tsv: $(MAP_RUNS) stability/map.sh
+$(BEDS)/map.tsv: $(MAP_RUNS) stability/map.sh stability/beds.mk
 	stability/map.sh $(MAP_RUNS) > $@
 
 # The wrong bed: the runs of the settling with friction and rotation, Merson at
 # fixed steps, and the two pairs that are too dear for more than one seed.
 ifeq ($(QUICK),)
-WRONG_RUNS := $(filter %,$(foreach h,4e-4 2e-4 1e-4 5e-5,\
+WRONG_RUNS := $(foreach h,4e-4 2e-4 1e-4 5e-5,\
     $(call bed_runs,$(full)/method-merson/step-$(h),0,4)) \
   $(foreach m,rkck rk8pd,$(foreach t,10 0.1,\
-    $(call bed_runs,$(full)/method-$(m)/tol-$(t),0,1))))
+    $(call bed_runs,$(full)/method-$(m)/tol-$(t),0,1)))
 endif
 WRONG_BEDS := $(filter $(BEDS)/$(full)/% $(BEDS)/timed/$(full)/%,$(BED_RUNS)) \
   $(WRONG_RUNS)
-$(BEDS)/wrong.tsv: $(WRONG_BEDS) precision/settling.awk
+$(BEDS)/wrong.tsv: $(WRONG_BEDS) precision/settling.awk stability/beds.mk
 	awk -f precision/settling.awk $(WRONG_BEDS) > $@
 $(BEDS)/slip.tsv: stability/slip.awk | $(B)/settle
 	@mkdir -p $(@D)
