@@ -34,9 +34,8 @@ static int start(const struct precision_case *c, struct scene *s,
                             .drop = 1.1,
                             .jitter = 0.25,
                             .seed = c->seed};
-  *s = (struct scene){.model = SCENE_ROTATION,
-                      .law = c->law,
-                      .gravity = {0, 0, -c->gravity}};
+  *s = (struct scene){
+      .model = SCENE_ROTATION, .law = c->law, .gravity = {0, 0, -c->gravity}};
   const int status = scene_add_box(s, side, side);
   return status == GSL_SUCCESS ? fill_grid(&fill, b) : status;
 }
@@ -50,9 +49,8 @@ static int fall(const struct precision_case *c,
   struct motion m;
   int status = start(c, &scene, &bed);
   if (status == GSL_SUCCESS) {
-    status =
-        motion_start(&m, &scene, &bed, o,
-                     &(struct dynamics_options){.threads = 1}, c->travel);
+    status = motion_start(&m, &scene, &bed, o,
+                          &(struct dynamics_options){.threads = 1}, c->travel);
     if (status == GSL_SUCCESS) {
       r->status = measure_until(m.integrator, c->time, most_steps);
       dynamics_unpack(m.dynamics, integrate_state(m.integrator), &bed);

@@ -113,6 +113,17 @@ for set in trajectory-8 trajectory-8-basic; do
       'BEGIN { print b / a }')" 0 0.02
   done
 done
+# The same by settle, whose end is interpolated instead of stepped to
+eight() {
+  "$B/settle" --quiet --base 0.5,0.5 --count 8 --time 2 --lmax 0.2 \
+    --control standard --hinit 1e-3 "$@" 2>"$T/err"
+}
+eight --method rk8pd --tol 1e-11 >"$T/sharp.bed"
+eight --method merson --tol 1e-3 >"$T/merson.bed"
+near 'error of position by settle over that by precision' "$(awk -f \
+  precision/horizon.awk "$T/sharp.bed" "$T/merson.bed" | awk -F '\t' \
+  -v e="$(trajectory trajectory-8 merson 'c("tol") == "0.001"' error_position)" \
+  'NR == 2 { print $4 / e }')" 0.98 1.02
 # with friction stability pays for Merson's accuracy: better at equal cost
 near 'with friction Merson at 1e-3 is sharper than rkc at 1e-5' "$(awk \
   -v a="$(trajectory trajectory-8 merson 'c("tol") == "0.001"' error_position)" \
