@@ -16,7 +16,7 @@ kappa(s) = s[:strstrt(s, "-")-1]
 method(s) = s[strstrt(s, "-")+1:]
 colour(s) = kappa(s) eq "30" ? orange : kappa(s) eq "150" ? blue : vermillion
 dash(s) = method(s) eq "rkc" ? 1 : method(s) eq "merson" ? 2 : \
-  method(s) eq "loose" ? 4 : 3
+  method(s) eq "loose" ? 3 : 4
 set lmargin at screen 0.18
 set logscale y
 set yrange [1e-16:100]
@@ -24,12 +24,12 @@ set ytics 1e3
 set format y "10^{%T}"
 set xlabel "time (s)"
 set ylabel "kinetic energy per sphere (J)"
-ways = "'RKC' 'Merson' 'Merson, {/:Italic δ} = 10' 'Merson, no cap but outputs'"
+ways = "'RKC' 'Merson' 'Merson, {/:Italic δ} = 10' 'Merson, no cap'"
 plot for [b=1:blocks] ARG1 index b-1 using "t":"kinetic" with lines \
-    lw (dash(run[b]) == 3 ? line : 0.6*line) dt dash(run[b]) \
+    lw (dash(run[b]) == 4 ? line : 0.6*line) dt dash(run[b]) \
     lc rgb colour(run[b]) notitle, \
   for [k in "30 150 500"] keyentry with lines lw line \
     lc rgb colour(k."-") title "{/:Italic κ} = ".k." m^{-1}", \
   keyentry with points pt 0 lc rgb "white" title " ", \
-  for [i=1:4] keyentry with lines lw (i == 3 ? line : 0.6*line) dt i \
+  for [i=1:4] keyentry with lines lw (i == 4 ? line : 0.6*line) dt i \
     lc rgb black title word(ways, i)
