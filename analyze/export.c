@@ -96,22 +96,8 @@ static void container(const struct bed_header *header, const struct bed *b,
       box[2 * k + 1] = fmax(box[2 * k + 1], b->x[3 * i + k] + b->r[i]);
     }
   }
-  for (size_t i = 0; i < header->count; i++) {
-    struct option_list wall;
-    struct option_spec spec = {
-        .type = OPTION_LIST, .value = &wall, .least = 6, .most = 6};
-    if (strcmp(header->at[i].name, "wall") ||
-        option_set(&spec, header->at[i].value))
-      continue;
-    const double *normal = wall.at + 3;
-    for (int k = 0; k < 3; k++)
-      if (normal[(k + 1) % 3] == 0 && normal[(k + 2) % 3] == 0) {
-        if (normal[k] < 0)
-          box[2 * k] = wall.at[k];
-        else if (normal[k] > 0)
-          box[2 * k + 1] = wall.at[k];
-      }
-  }
+  bool walled[6];
+  header_walls(header, box, walled);
   /* programs refuse a box without volume and lose atoms that are outside */
   for (int k = 0; k < 3; k++) {
     for (size_t i = 0; i < b->n; i++) {

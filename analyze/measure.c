@@ -2,6 +2,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include "box.h"
@@ -39,6 +40,25 @@ struct scene frame_scene(const struct frames *f, const struct bed *b) {
   if (wrong)
     frame_refuse(f, b, wrong);
   return s;
+}
+
+void header_walls(const struct bed_header *h, double box[6], bool walled[6]) {
+  memset(walled, 0, 6 * sizeof *walled);
+  for (size_t i = 0; i < h->count; i++) {
+    struct option_list wall;
+    struct option_spec spec = {
+        .type = OPTION_LIST, .value = &wall, .least = 6, .most = 6};
+    if (strcmp(h->at[i].name, "wall") || option_set(&spec, h->at[i].value))
+      continue;
+    const double *normal = wall.at + 3;
+    for (int k = 0; k < 3; k++)
+      if (normal[k] != 0 && normal[(k + 1) % 3] == 0 &&
+          normal[(k + 2) % 3] == 0) {
+        const int face = 2 * k + (normal[k] > 0);
+        box[face] = wall.at[k];
+        walled[face] = true;
+      }
+  }
 }
 
 void frame_warn_rewritten(const struct frames *f) {

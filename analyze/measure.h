@@ -26,6 +26,11 @@ struct scene frame_scene(const struct frames *f, const struct bed *b);
    are not those that hold the bed. */
 void frame_warn_rewritten(const struct frames *f);
 
+/* Puts the faces of a box where the header has walls across an axis, and says
+   of each face whether it has; the last of several walls counts. What is not
+   six numbers is no wall. */
+void header_walls(const struct bed_header *h, double box[6], bool walled[6]);
+
 /* Exits with EXIT_INPUT and one line: the input, the frame's time and why it
    cannot be measured. */
 _Noreturn void frame_refuse(const struct frames *f, const struct bed *b,

@@ -12,6 +12,7 @@
 #include <unistd.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
+#include "measure.h"
 #include "neighbors.h"
 
 const char *const picture_colors[] = {"height",   "speed", "radius",
@@ -125,28 +126,6 @@ static double *colour_values(const struct picture *p, const struct bed *b) {
   return value;
 }
 
-/* Walls along the axes bound the box. */
-static void take_walls(struct picture *p, const struct bed_header *h) {
-  memset(p->fixed, 0, sizeof p->fixed);
-  for (size_t k = 0; k < h->count; k++) {
-    double w[6];
-    if (strcmp(h->at[k].name, "wall") ||
-        sscanf(h->at[k].value,
-               "%lf%*[ ,]%lf%*[ ,]%lf%*[ ,]%lf%*[ ,]%lf%*[ ,]"
-               "%lf",
-               &w[0], &w[1], &w[2], &w[3], &w[4], &w[5]) != 6)
-      continue;
-    for (int a = 0; a < 3; a++) {
-      const double n = w[3 + a];
-      if (n == 0 || w[3 + (a + 1) % 3] != 0 || w[3 + (a + 2) % 3] != 0 ||
-          !isfinite(w[a]))
-        continue;
-      p->box[2 * a + (n > 0)] = w[a];
-      p->fixed[2 * a + (n > 0)] = true;
-    }
-  }
-}
-
 static void widen(double *low, double *high, double from, double to,
                   bool first) {
   if (low && (first || from < *low))
@@ -157,7 +136,7 @@ static void widen(double *low, double *high, double from, double to,
 
 void picture_measure(struct picture *p, const struct bed *b,
                      const struct bed_header *h) {
-  take_walls(p, h);
+  header_walls(h, p->box, p->fixed);
   double *value = colour_values(p, b);
   for (size_t i = 0; i < b->n; i++, p->measured++) {
     const bool first = !p->measured;

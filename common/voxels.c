@@ -337,7 +337,6 @@ static int by_row(struct voxels *v, enum voxels_value what, size_t k, size_t j0,
   for (size_t j = 0; j < j1 - j0; j++)
     most = GSL_MAX(most, v->start[j + 1] - v->start[j]);
   int failed = 0;
-  (void)threads; /* where there is no OpenMP */
 #pragma omp parallel num_threads(threads) reduction(| : failed)
   {
     struct row w = {.v = v,
