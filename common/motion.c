@@ -1,6 +1,7 @@
 #include "motion.h"
 
 #include <stdlib.h>
+#include <string.h>
 #include <gsl/gsl_errno.h>
 
 static int rhs(double t, const double y[], double dydt[], void *params) {
@@ -51,6 +52,27 @@ int motion_start(struct motion *m, const struct scene *s, const struct bed *b,
   free(y);
   if (status != GSL_SUCCESS)
     motion_free(m);
+  return status;
+}
+
+int motion_start_over_floor(struct motion *m, const struct scene *s,
+                            double radius, const double x[3], const double v[3],
+                            const struct integrate_options *o, double travel) {
+  struct scene floored = *s;
+  struct bed bed = {0};
+  int status =
+      scene_add_wall(&floored, (double[]){0, 0, 0}, (double[]){0, 0, -1});
+  if (status == GSL_SUCCESS)
+    status = bed_alloc(&bed, 1);
+  if (status == GSL_SUCCESS) {
+    bed.r[0] = radius;
+    memcpy(bed.x, x, 3 * sizeof *x);
+    memcpy(bed.v, v, 3 * sizeof *v);
+    status = motion_start(m, &floored, &bed, o,
+                          &(struct dynamics_options){.threads = 1}, travel);
+  }
+  bed_free(&bed);
+  scene_free(&floored);
   return status;
 }
 

@@ -20,6 +20,11 @@ struct motion {
 int motion_start(struct motion *m, const struct scene *s, const struct bed *b,
                  const struct integrate_options *o,
                  const struct dynamics_options *d, double travel);
+/* The same for one sphere of unit mass over the floor z = 0, at time 0 and in
+   one thread; the scene is to have no walls of its own. */
+int motion_start_over_floor(struct motion *m, const struct scene *s,
+                            double radius, const double x[3], const double v[3],
+                            const struct integrate_options *o, double travel);
 void motion_free(struct motion *m);
 
 #endif

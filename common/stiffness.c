@@ -10,8 +10,7 @@
 #include <gsl/gsl_poly.h>
 #include <gsl/gsl_rng.h>
 
-/* y' = lambda y as two real unknowns */
-static int turn(double t, const double y[], double dydt[], void *params) {
+int stiffness_linear(double t, const double y[], double dydt[], void *params) {
   (void)t;
   const double *lambda = params;
   dydt[0] = lambda[0] * y[0] - lambda[1] * y[1];
@@ -22,9 +21,9 @@ static int turn(double t, const double y[], double dydt[], void *params) {
 /* |R(z)| by a step of length 1. */
 static double growth(gsl_odeiv2_step *step, double radius, double angle) {
   double lambda[2] = {radius * cos(angle), radius * sin(angle)};
-  const gsl_odeiv2_system system = {turn, NULL, 2, lambda};
+  const gsl_odeiv2_system system = {stiffness_linear, NULL, 2, lambda};
   double y[2] = {1, 0}, error[2], rate[2];
-  turn(0, y, rate, lambda);
+  stiffness_linear(0, y, rate, lambda);
   gsl_odeiv2_step_reset(step);
   if (gsl_odeiv2_step_apply(step, 0, 1, y, error, rate, NULL, &system) !=
       GSL_SUCCESS)

@@ -8,6 +8,10 @@
 #include <stddef.h>
 #include <gsl/gsl_odeiv2.h>
 
+/* y' = lambda y, on which stability is tested, as a right-hand side of two real
+   unknowns; params: two doubles, the parts of lambda. */
+int stiffness_linear(double t, const double y[], double dydt[], void *params);
+
 /* Largest |z| on the ray arg z = angle (pi/2 to pi) up to which no step of the
    method on y' = lambda y, z = h lambda, grows y by more than 1 %: the edge of
    its stability region, but for the slow growth along the imaginary axis that

@@ -21,22 +21,11 @@ static int run(const struct precision_case *c, const void *reference,
   const double tau = 20 / (c->law.kappa * c->speed);
   double gap, velocity;
   closed_collision(c->law.f0, c->law.kappa, c->speed, -tau, &gap, &velocity);
-  struct scene scene = {.model = SCENE_BASIC, .law = c->law};
-  struct bed bed = {0};
+  const struct scene scene = {.model = SCENE_BASIC, .law = c->law};
   struct motion m;
-  int status =
-      scene_add_wall(&scene, (double[]){0, 0, 0}, (double[]){0, 0, -1});
-  if (status == GSL_SUCCESS)
-    status = bed_alloc(&bed, 1);
-  if (status == GSL_SUCCESS) {
-    bed.r[0] = radius;
-    bed.x[2] = radius + gap;
-    bed.v[2] = velocity;
-    status = motion_start(&m, &scene, &bed, c->integrate,
-                          &(struct dynamics_options){.threads = 1}, c->travel);
-  }
-  bed_free(&bed);
-  scene_free(&scene);
+  const int status = motion_start_over_floor(
+      &m, &scene, radius, (double[]){0, 0, radius + gap},
+      (double[]){0, 0, velocity}, c->integrate, c->travel);
   if (status != GSL_SUCCESS)
     return status;
   measure_start(r);

@@ -24,24 +24,12 @@ static double slip_of(const double y[]) {
 static int start(const struct precision_case *c, double speed, size_t k,
                  struct motion *m) {
   const struct integrate_options o = measure_variant(c->integrate, k);
-  struct scene scene = {
+  const struct scene scene = {
       .model = SCENE_ROTATION, .law = c->law, .gravity = {0, 0, -c->gravity}};
-  struct bed bed = {0};
-  int status =
-      scene_add_wall(&scene, (double[]){0, 0, 0}, (double[]){0, 0, -1});
-  if (status == GSL_SUCCESS)
-    status = bed_alloc(&bed, 1);
-  if (status == GSL_SUCCESS) {
-    bed.r[0] = radius;
-    bed.x[2] = radius + closed_rest_gap(&c->law, c->gravity);
-    for (int i = 0; i < 2; i++)
-      bed.v[i] = speed * direction[i];
-    status = motion_start(m, &scene, &bed, &o,
-                          &(struct dynamics_options){.threads = 1}, c->travel);
-  }
-  bed_free(&bed);
-  scene_free(&scene);
-  return status;
+  const double rest = closed_rest_gap(&c->law, c->gravity);
+  return motion_start_over_floor(
+      m, &scene, radius, (double[]){0, 0, radius + rest},
+      (double[]){speed * direction[0], speed * direction[1], 0}, &o, c->travel);
 }
 
 /* What friction takes to go through vmin, shared among the runs, is how much

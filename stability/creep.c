@@ -64,25 +64,14 @@ static int creep(const struct slope *a, double time, double travel,
                  const struct integrate_options *o, struct speeds *v) {
   const struct contact_law *law = a->law;
   const double weight = gravity * cos(a->angle);
-  struct scene scene = {.model = SCENE_FRICTION,
-                        .law = *law,
-                        .gravity = {gravity * sin(a->angle), 0, -weight}};
-  struct bed bed;
+  const struct scene scene = {.model = SCENE_FRICTION,
+                              .law = *law,
+                              .gravity = {gravity * sin(a->angle), 0, -weight}};
+  const double rest = closed_rest_gap(law, weight);
   struct motion m;
-  int status =
-      scene_add_wall(&scene, (double[]){0, 0, 0}, (double[]){0, 0, -1});
-  if (status == GSL_SUCCESS)
-    status = bed_alloc(&bed, 1);
-  if (status != GSL_SUCCESS) {
-    scene_free(&scene);
-    return status;
-  }
-  bed.r[0] = radius;
-  bed.x[2] = radius + closed_rest_gap(law, weight);
-  status = motion_start(&m, &scene, &bed, o,
-                        &(struct dynamics_options){.threads = 1}, travel);
-  bed_free(&bed);
-  scene_free(&scene);
+  int status = motion_start_over_floor(&m, &scene, radius,
+                                       (double[]){0, 0, radius + rest},
+                                       (double[]){0, 0, 0}, o, travel);
   if (status != GSL_SUCCESS)
     return status;
   *v = (struct speeds){GSL_NAN, GSL_POSINF, GSL_NEGINF, 0};

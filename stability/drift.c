@@ -57,15 +57,14 @@ static int start(struct motion *m, const struct elastic *e,
                  const struct integrate_options *o) {
   struct scene scene = {
       .model = SCENE_BASIC, .law = e->law, .gravity = {0, 0, -gravity}};
+  if (!e->box)
+    return motion_start_over_floor(m, &scene, radius,
+                                   (double[]){0, 0, radius + e->drop},
+                                   (double[]){0, 0, 0}, o, e->travel);
   struct bed bed = {0};
-  int status = bed_alloc(&bed, e->box ? e->count : 1);
-  if (status == GSL_SUCCESS && e->box)
+  int status = bed_alloc(&bed, e->count);
+  if (status == GSL_SUCCESS)
     status = fill_box(e, &scene, &bed);
-  else if (status == GSL_SUCCESS) {
-    status = scene_add_wall(&scene, (double[]){0, 0, 0}, (double[]){0, 0, -1});
-    bed.r[0] = radius;
-    bed.x[2] = radius + e->drop;
-  }
   if (status == GSL_SUCCESS)
     status = motion_start(m, &scene, &bed, o,
                           &(struct dynamics_options){.threads = 1}, e->travel);

@@ -6,6 +6,7 @@
 #include <gsl/gsl_errno.h>
 #include "integrate.h"
 #include "rkc.h"
+#include "stiffness.h"
 #include "verlet.h"
 
 int stepper_alloc(struct stepper *s, struct stepper_kind kind, size_t dim,
@@ -86,20 +87,12 @@ int stepper_apply(struct stepper *s, const gsl_odeiv2_system *sys, double t,
   return status;
 }
 
-static int linear_rhs(double t, const double y[], double dydt[], void *params) {
-  (void)t;
-  const double *lambda = params;
-  dydt[0] = lambda[0] * y[0] - lambda[1] * y[1];
-  dydt[1] = lambda[1] * y[0] + lambda[0] * y[1];
-  return GSL_SUCCESS;
-}
-
 int stepper_factor(struct stepper_kind kind, double re, double im,
                    double factor[2]) {
   struct stepper s;
   double lambda[2] = {re, im};
   const gsl_odeiv2_system sys = {
-      .function = linear_rhs, .dimension = 2, .params = lambda};
+      .function = stiffness_linear, .dimension = 2, .params = lambda};
   int status = strcmp(kind.method, "verlet") ? stepper_alloc(&s, kind, 2, 0, 0)
                                              : GSL_EINVAL;
   if (status != GSL_SUCCESS)
