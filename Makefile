@@ -63,19 +63,15 @@ $(LIBRARY): $(COMMON_OBJECTS)
 	ar rcs $@ $^
 
 LINK = $(CC) $(ALL_CFLAGS) $^ $(GSL_LIBS) $(LIBMVEC) -lm -o $@
-$(B)/bounce: $(patsubst %.c,$(O)/%.o,$(wildcard bounce/*.c)) $(LIBRARY)
-	$(LINK)
-$(B)/settle: $(patsubst %.c,$(O)/%.o,$(wildcard settle/*.c)) $(LIBRARY)
-	$(LINK)
-$(B)/analyze: $(patsubst %.c,$(O)/%.o,$(wildcard analyze/*.c)) $(LIBRARY)
-	$(LINK)
-$(B)/precision: $(patsubst %.c,$(O)/%.o,$(wildcard precision/*.c)) $(LIBRARY)
-	$(LINK)
-$(B)/stability: $(patsubst %.c,$(O)/%.o,$(wildcard stability/*.c)) $(LIBRARY)
-	$(LINK)
+# Each program is a folder of sources.
+PROGRAMS := bounce settle analyze precision stability
+define program_rule
+$(B)/$(1): $(patsubst %.c,$(O)/%.o,$(wildcard $(1)/*.c)) $(LIBRARY)
+	$$(LINK)
+endef
+$(foreach p,$(PROGRAMS),$(eval $(call program_rule,$(p))))
 
 $(O)/analyze/picture.o: ALL_CFLAGS += -DPLOTS_SOURCE='"$(CURDIR)/plots"'
-
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 
 # Tests: every tests/test_*.c is a program, every tests/test_*.sh a script; each
@@ -146,7 +142,5 @@ include plots/analysis.mk
 include bench/bench.mk
 include docs/pages.mk
 include $(wildcard precision/*.mk stability/*.mk)
-# after the includes, each of which may add to the list
-stability: $(STABILITY_FIGURES) ## where methods fail: every chart and table of it (QUICK=1: small ones)
 
 .PHONY: all check fuzz deps demo install clean help

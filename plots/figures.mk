@@ -2,11 +2,12 @@
 # its exact arguments, and a picture by gnuplot. Data are under build/data, one
 # file a run, so that a stopped make goes on where it was; charts and tables
 # under build/figures.
-D := $(B)/data
-F := $(B)/figures
+# QUICK=1: what the studies have of small versions, in directories of their own.
+D := $(B)/$(if $(QUICK),quick/)data
+F := $(B)/$(if $(QUICK),quick/)figures
 SETTLE := $(B)/settle --quiet
 
-# $(call chart,SCRIPT,INPUTS): both formats; $@ is the .svg
+# $(call draw,SCRIPT,INPUTS,NAME): both formats
 define draw
 @mkdir -p $(F)
 gnuplot -c plots/$(1) $(2) $(F)/$(3).svg

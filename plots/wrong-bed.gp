@@ -1,14 +1,14 @@
 # The fraction of beds with friction less that of a sharp run of the same seed:
 # against a fixed step, with the share of the contacts' force whose slip that
 # step makes oscillate; and against the tolerance of adaptive methods.
-#   gnuplot -c plots/wrong-bed.gp IN OUT SLIP
+#   gnuplot -c plots/wrong-bed.gp IN SLIP OUT
 # IN: blocks by precision/settling.awk; SLIP: columns step and share by
 # stability/slip.awk.
 set loadpath system("dirname '".ARG0."'")
 key_rows = 4
 height = 1000
 columns = ""
-call "style.gp" "wrong-bed.gp IN OUT SLIP" ARG2 ARG1 ARG3
+call "style.gp" "wrong-bed.gp IN SLIP OUT" ARG3 ARG1 ARG2
 
 stats ARG1 using (blocks = column(-2) + 1) nooutput
 array method[blocks]
@@ -45,7 +45,7 @@ set y2range [-0.015/0.055:1]
 set y2tics 0,0.5,1 nomirror
 set ytics nomirror
 set arrow from graph 0,first 0 to graph 1,first 0 nohead lw thin lc rgb black
-plot ARG3 using "step":"share" axes x1y2 with lines lw line dt 2 lc rgb grey \
+plot ARG2 using "step":"share" axes x1y2 with lines lw line dt 2 lc rgb grey \
     title "share of unstable slip", \
   for [i=1:words(steps)] ARG1 index of(steps, i)-1 using (good("step")): \
     (d(0)):(ci(0)) with yerrorbars lw thin pt method_point(method[of(steps, i)]) \

@@ -3,8 +3,8 @@
 # (precision/bed.sh), so that a stopped make goes on where it was. The CPU times
 # of the chart come from the runs under timed/, which have the machine to
 # themselves as far as these rules go: others wait for the lock meanwhile.
-# QUICK=1: fewer, smaller and shorter runs, in a directory of their own.
-BEDS := $(B)/$(if $(QUICK),quick/)data/beds
+# QUICK=1: fewer, smaller and shorter runs.
+BEDS := $(D)/beds
 SHARED := flock -s $(B)/timing.lock
 TIMED := flock -x $(B)/timing.lock
 
@@ -75,25 +75,22 @@ BED_RUNS += \
 # Tolerances in order, so that charts join them
 $(BEDS)/settling.tsv: $(BED_RUNS) precision/settling.awk precision/beds.mk
 	awk -f precision/settling.awk $(BED_RUNS) > $@
-BED_FIGURES := $(B)/$(if $(QUICK),quick/)figures
-settling: $(BED_FIGURES)/precision-settling.svg $(BED_FIGURES)/precision-settling.md ## error of a bed's fraction against CPU time: which method to take
-$(BED_FIGURES)/precision-settling.svg: $(BEDS)/settling.tsv plots/settling.gp \
+settling: $(F)/precision-settling.svg $(F)/precision-settling.md ## error of a bed's fraction against CPU time: which method to take
+$(F)/precision-settling.svg: $(BEDS)/settling.tsv plots/settling.gp \
   plots/style.gp
-	@mkdir -p $(@D)
-	gnuplot -c plots/settling.gp $< $@
-	gnuplot -c plots/settling.gp $< $(@:.svg=.png)
-$(BED_FIGURES)/precision-settling.md: $(BEDS)/settling.tsv bench/markdown.awk
+	$(call draw,settling.gp,$<,precision-settling)
+$(F)/precision-settling.md: $(BEDS)/settling.tsv bench/markdown.awk
 	@mkdir -p $(@D)
 	awk -f bench/markdown.awk $< > $@
 
 # Seed by seed: rkc as settle has it, and Merson with two tolerances
 SEED_RUNS := $(foreach m,merson/tol-0.01 merson/tol-0.1 rkc/tol-5e-4,\
   $(call bed_runs,$(full)/method-$(m),$(if $(filter rkc/%,$(m)),3,1),$(BED_RKC)))
-seeds: $(BED_FIGURES)/precision-seeds.md ## rkc beside Merson, seed by seed
+seeds: $(F)/precision-seeds.md ## rkc beside Merson, seed by seed
 	@cat $<
-$(BED_FIGURES)/precision-seeds.md: $(SEED_RUNS) precision/seeds.awk precision/beds.mk
+$(F)/precision-seeds.md: $(SEED_RUNS) precision/seeds.awk precision/beds.mk
 	@mkdir -p $(@D)
 	awk -f precision/seeds.awk $(SEED_RUNS) > $@
 
-precision: settling $(BED_FIGURES)/precision-seeds.md
+precision: settling $(F)/precision-seeds.md
 .PHONY: settling seeds

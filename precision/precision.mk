@@ -2,10 +2,9 @@
 # tolerances, verlet over fixed steps. Data are one file a run (set x method)
 # under build/data/precision, so that a stopped make goes on where it was; a
 # set's runs make one chart for each of its errors and each kind of cost.
-# QUICK=1: fewer rungs, sets and charts, in directories of their own. Other .mk
-# files add what they chart by a line `precision: FILES`.
-PRECISION_DATA := $(B)/$(if $(QUICK),quick/)data/precision
-PRECISION_OUT := $(B)/$(if $(QUICK),quick/)figures
+# QUICK=1: fewer rungs, sets and charts. Other .mk files add what they chart by a
+# line `precision: FILES`.
+PRECISION_DATA := $(D)/precision
 
 # The standard control with its norm by unknown, the same for all, so that
 # steppers are compared and not controls.
@@ -171,7 +170,7 @@ endef
 # $(call precision_chart,SET,ERROR,COST)
 define precision_chart
 PRECISION_CHARTS += $(1)-$(2)-$(3)
-$(PRECISION_OUT)/precision-$(1)-$(2)-$(3).svg: $(PRECISION_DATA)/$(1).tsv \
+$(F)/precision-$(1)-$(2)-$(3).svg: $(PRECISION_DATA)/$(1).tsv \
   plots/precision.gp plots/style.gp
 	@mkdir -p $$(@D)
 	gnuplot -c plots/precision.gp $$< $$@ '$$(TITLE_$(1))' $(3) error_$(2) \
@@ -187,15 +186,15 @@ $(foreach s,$(PRECISION_SETS),$(eval $(call precision_set,$(s)))\
 
 # Tables: work for given errors, orders that are left, rejected steps
 PRECISION_FIGURES := \
-  $(patsubst %,$(PRECISION_OUT)/precision-%.svg,$(or $(QUICK_FIGURES),\
+  $(patsubst %,$(F)/precision-%.svg,$(or $(QUICK_FIGURES),\
     $(PRECISION_CHARTS))) \
-  $(PRECISION_OUT)/precision-work.md $(PRECISION_OUT)/precision-orders.md
+  $(F)/precision-work.md $(F)/precision-orders.md
 PRECISION_BY_STEP := $(filter %-steps,$(PRECISION_SETS))
-$(PRECISION_OUT)/precision-work.md: precision/work.awk precision/precision.mk \
+$(F)/precision-work.md: precision/work.awk precision/precision.mk \
   $(patsubst %,$(PRECISION_DATA)/%.tsv,$(filter-out %-steps,$(PRECISION_SETS)))
 	@mkdir -p $(@D)
 	awk -f $(filter %.awk %.tsv,$^) > $@
-$(PRECISION_OUT)/precision-orders.md: precision/orders.awk \
+$(F)/precision-orders.md: precision/orders.awk \
   precision/precision.mk $(patsubst %,$(PRECISION_DATA)/%.tsv,\
     $(PRECISION_BY_STEP:%-steps=%) $(PRECISION_BY_STEP))
 	@mkdir -p $(@D)

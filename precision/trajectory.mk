@@ -30,11 +30,11 @@ $(foreach s,$(TRAJECTORIES),$(eval $(call precision_set,$(s)))\
   $(foreach c,evaluations cpu_seconds,\
   $(eval $(call precision_chart,$(s),position,$(c)))))
 TRAJECTORY_CHARTS := $(filter-out $(TRAJECTORY_CHARTS),$(PRECISION_CHARTS))
-trajectories: $(TRAJECTORY_CHARTS:%=$(PRECISION_OUT)/precision-%.svg) ## where falling spheres are, against work; and how long that is determined
+trajectories: $(TRAJECTORY_CHARTS:%=$(F)/precision-%.svg) ## where falling spheres are, against work; and how long that is determined
 
 # Distance of runs from a sharp one over time, and of two sharp ones from each
 # other. Beds of settle, whose frames are interpolated between steps.
-HORIZON_METHODS := reference merson rkc verlet
+HORIZON_METHODS := again merson rkc verlet # beside the reference
 HORIZON_reference := --method rk8pd --control standard --tol 1e-10
 HORIZON_again := --method rk8pd --control standard --tol 1e-9
 HORIZON_merson := --method merson
@@ -48,20 +48,18 @@ $(HORIZON)/$(1)-$(2).bed: | $(B)/settle
 	$(B)/settle --quiet --model $(1) $(HORIZON_$(2)) $(HORIZON_SIZE) > $$@
 endef
 HORIZON_RUNS := $(foreach v,basic rotation,\
-  $(foreach m,reference again merson rkc verlet,$(HORIZON)/$(v)-$(m).bed))
-$(foreach v,basic rotation,$(foreach m,reference again merson rkc verlet,\
+  $(foreach m,reference $(HORIZON_METHODS),$(HORIZON)/$(v)-$(m).bed))
+$(foreach v,basic rotation,$(foreach m,reference $(HORIZON_METHODS),\
   $(eval $(call horizon_run,$(v),$(m)))))
 $(HORIZON).tsv: precision/horizon.awk $(HORIZON_RUNS)
 	for v in basic rotation; do \
-	  for m in again merson rkc verlet; do \
+	  for m in $(HORIZON_METHODS); do \
 	    awk -v variant=$$v -v method=$$m -f $< $(HORIZON)/$$v-reference.bed \
 	      $(HORIZON)/$$v-$$m.bed || exit; \
 	  done; \
 	done > $@
-$(PRECISION_OUT)/precision-horizon.svg: $(HORIZON).tsv plots/horizon.gp plots/style.gp
-	@mkdir -p $(@D)
-	gnuplot -c plots/horizon.gp $< $@
-	gnuplot -c plots/horizon.gp $< $(@:.svg=.png)
-trajectories: $(PRECISION_OUT)/precision-horizon.svg
+$(F)/precision-horizon.svg: $(HORIZON).tsv plots/horizon.gp plots/style.gp
+	$(call draw,horizon.gp,$<,precision-horizon)
+trajectories: $(F)/precision-horizon.svg
 precision: trajectories
 .PHONY: trajectories

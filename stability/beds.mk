@@ -61,20 +61,15 @@ $(BEDS)/wrong.tsv: $(WRONG_BEDS) precision/settling.awk stability/beds.mk
 $(BEDS)/slip.tsv: stability/slip.awk | $(B)/settle
 	@mkdir -p $(@D)
 	$(B)/settle --quiet $(BED_OPTIONS) | awk -f $< > $@
-stability-wrong-bed: $(F)/$(if $(QUICK),quick/)stability-wrong-bed.svg ## where friction integrated badly melts the bed
-$(F)/$(if $(QUICK),quick/)stability-wrong-bed.svg: $(BEDS)/wrong.tsv \
+stability-wrong-bed: $(F)/stability-wrong-bed.svg ## where friction integrated badly melts the bed
+$(F)/stability-wrong-bed.svg: $(BEDS)/wrong.tsv \
   $(BEDS)/slip.tsv plots/wrong-bed.gp plots/style.gp
-	@mkdir -p $(@D)
-	gnuplot -c plots/wrong-bed.gp $(BEDS)/wrong.tsv $@ $(BEDS)/slip.tsv
-	gnuplot -c plots/wrong-bed.gp $(BEDS)/wrong.tsv $(@:.svg=.png) \
-	  $(BEDS)/slip.tsv
+	$(call draw,wrong-bed.gp,$(BEDS)/wrong.tsv $(BEDS)/slip.tsv,stability-wrong-bed)
 
-stability-map: $(F)/$(if $(QUICK),quick/)stability-map.svg ## what became of beds by tolerance, kappa and variant
-$(F)/$(if $(QUICK),quick/)stability-map.svg: $(BEDS)/map.tsv plots/map.gp \
+stability-map: $(F)/stability-map.svg ## what became of beds by tolerance, kappa and variant
+$(F)/stability-map.svg: $(BEDS)/map.tsv plots/map.gp \
   plots/style.gp
-	@mkdir -p $(@D)
-	gnuplot -c plots/map.gp $< $@
-	gnuplot -c plots/map.gp $< $(@:.svg=.png)
+	$(call draw,map.gp,$<,stability-map)
 
 # Does kappa = 500 vibrate? Kinetic energy per sphere over time of the variant
 # without friction; outputs: steps no longer than the time between 400 outputs
@@ -99,12 +94,10 @@ endef
 $(foreach r,$(VIBRATION_RUNS),$(eval $(call vibration_run,$(r))))
 $(VIBRATION).tsv: $(VIBRATION_RUNS:%=$(VIBRATION)/%.tsv)
 	awk 'FNR == 1 && NR > 1 { print "\n" } 1' $^ > $@
-stability-vibration: $(F)/$(if $(QUICK),quick/)stability-vibration.svg ## does kappa = 500 vibrate: kinetic energy over time
-$(F)/$(if $(QUICK),quick/)stability-vibration.svg: $(VIBRATION).tsv \
+stability-vibration: $(F)/stability-vibration.svg ## does kappa = 500 vibrate: kinetic energy over time
+$(F)/stability-vibration.svg: $(VIBRATION).tsv \
   plots/vibration.gp plots/style.gp
-	@mkdir -p $(@D)
-	gnuplot -c plots/vibration.gp $< $@
-	gnuplot -c plots/vibration.gp $< $(@:.svg=.png)
+	$(call draw,vibration.gp,$<,stability-vibration)
 
-STABILITY_FIGURES += stability-map stability-wrong-bed stability-vibration
+stability: stability-map stability-wrong-bed stability-vibration
 .PHONY: stability-map stability-wrong-bed stability-vibration

@@ -1,18 +1,11 @@
 # Where methods fail: build/stability VERB, one file of data a run under
-# build/data/stability, charts and tables under build/figures. QUICK=1 makes
-# reduced ones beside them. What other studies add to STABILITY_FIGURES is made
-# by `make stability` as well.
-STABILITY_DATA := $(D)/stability$(if $(QUICK),-quick)
-STABILITY_OUT := $(F)$(if $(QUICK),/quick)
-STABILITY_FIGURES += stability-regions stability-tunnel stability-drift \
-  stability-creep stability-cut
+# build/data/stability, charts and tables under build/figures. QUICK=1: reduced
+# ones. Other .mk files add what they chart by a line `stability: FILES`.
+STABILITY_DATA := $(D)/stability
+stability: ## where methods fail: every chart and table of it (QUICK=1: small ones)
+stability: stability-regions stability-tunnel stability-drift stability-creep \
+  stability-cut
 
-# $(call stability_draw,SCRIPT,INPUTS,NAME)
-define stability_draw
-@mkdir -p $(STABILITY_OUT)
-gnuplot -c plots/$(1) $(2) $(STABILITY_OUT)/$(3).svg
-gnuplot -c plots/$(1) $(2) $(STABILITY_OUT)/$(3).png
-endef
 # $(call stability_run,NAME,VERB AND OPTIONS): a rule for one file of data
 define stability_run
 $(STABILITY_DATA)/$(strip $(1)).tsv: $(B)/stability
@@ -26,12 +19,12 @@ stability_merge = awk 'FNR == 1 { named = 0 } /^\#/ || !NF { next } \
 # Stability limits, and the regions that they lie on
 $(eval $(call stability_run,limits,limits))
 $(eval $(call stability_run,regions,regions --points $(if $(QUICK),61,241)))
-stability-regions: $(addprefix $(STABILITY_OUT)/stability-,regions.svg limits.md) ## largest stable steps, measured and by theory
-$(STABILITY_OUT)/stability-regions.svg: $(STABILITY_DATA)/regions.tsv \
+stability-regions: $(addprefix $(F)/stability-,regions.svg limits.md) ## largest stable steps, measured and by theory
+$(F)/stability-regions.svg: $(STABILITY_DATA)/regions.tsv \
   $(STABILITY_DATA)/limits.tsv plots/regions.gp plots/style.gp
-	$(call stability_draw,regions.gp,$(STABILITY_DATA)/regions.tsv $(STABILITY_DATA)/limits.tsv,stability-regions)
-$(STABILITY_OUT)/stability-limits.md: $(STABILITY_DATA)/limits.tsv bench/markdown.awk
-	@mkdir -p $(STABILITY_OUT)
+	$(call draw,regions.gp,$(STABILITY_DATA)/regions.tsv $(STABILITY_DATA)/limits.tsv,stability-regions)
+$(F)/stability-limits.md: $(STABILITY_DATA)/limits.tsv bench/markdown.awk
+	@mkdir -p $(F)
 	awk -f bench/markdown.awk $< > $@
 
 # Missed collisions, without and with the cap on travel
@@ -41,13 +34,13 @@ $(foreach m,$(STABILITY_PAIRS) rkc,$(foreach t,0 1,$(eval $(call stability_run,\
   tunnel-$(m)-$(t),tunnel --method $(m) --travel $(t) --runs $(if $(QUICK),4,50)))))
 $(STABILITY_DATA)/tunnel.tsv: $(TUNNEL_RUNS:%=$(STABILITY_DATA)/%.tsv)
 	$(call stability_merge,$^) > $@
-stability-tunnel: $(addprefix $(STABILITY_OUT)/stability-,tunnel.svg tunnel.md) ## fast spheres out of free flight: who misses
-$(STABILITY_OUT)/stability-tunnel.svg: $(STABILITY_DATA)/tunnel.tsv \
+stability-tunnel: $(addprefix $(F)/stability-,tunnel.svg tunnel.md) ## fast spheres out of free flight: who misses
+$(F)/stability-tunnel.svg: $(STABILITY_DATA)/tunnel.tsv \
   plots/tunnel.gp plots/style.gp
-	$(call stability_draw,tunnel.gp,$<,stability-tunnel)
-$(STABILITY_OUT)/stability-tunnel.md: $(STABILITY_DATA)/tunnel.tsv \
+	$(call draw,tunnel.gp,$<,stability-tunnel)
+$(F)/stability-tunnel.md: $(STABILITY_DATA)/tunnel.tsv \
   stability/outcomes.awk bench/markdown.awk
-	@mkdir -p $(STABILITY_OUT)
+	@mkdir -p $(F)
 	awk -f stability/outcomes.awk $< | awk -f bench/markdown.awk > $@
 
 # Energy, at equal cost: evaluations a bounce, and a second of the box
@@ -61,10 +54,10 @@ $(STABILITY_DATA)/drift-bounce.tsv: $(DRIFT_METHODS:%=$(STABILITY_DATA)/drift-bo
 	$(call stability_merge,$^) > $@
 $(STABILITY_DATA)/drift-box.tsv: $(DRIFT_METHODS:%=$(STABILITY_DATA)/drift-box-%.tsv)
 	$(call stability_merge,$^) > $@
-stability-drift: $(STABILITY_OUT)/stability-drift.svg ## energy over 1000 bounces and in a closed box
+stability-drift: $(F)/stability-drift.svg ## energy over 1000 bounces and in a closed box
 DRIFT_TABLES := $(STABILITY_DATA)/drift-bounce.tsv $(STABILITY_DATA)/drift-box.tsv
-$(STABILITY_OUT)/stability-drift.svg: $(DRIFT_TABLES) plots/drift.gp plots/style.gp
-	$(call stability_draw,drift.gp,$(DRIFT_TABLES),stability-drift)
+$(F)/stability-drift.svg: $(DRIFT_TABLES) plots/drift.gp plots/style.gp
+	$(call draw,drift.gp,$(DRIFT_TABLES),stability-drift)
 
 # Creep, with each method's control of settle
 CREEP_RUNS := $(DRIFT_METHODS:%=creep-%)
@@ -72,10 +65,10 @@ $(foreach m,$(DRIFT_METHODS),$(eval $(call stability_run,creep-$(m),\
   creep --method $(m) $(if $(filter verlet,$(m)),--step 4e-4))))
 $(STABILITY_DATA)/creep.tsv: $(CREEP_RUNS:%=$(STABILITY_DATA)/%.tsv)
 	$(call stability_merge,$^) > $@
-stability-creep: $(STABILITY_OUT)/stability-creep.svg ## creep below the friction angle
-$(STABILITY_OUT)/stability-creep.svg: $(STABILITY_DATA)/creep.tsv \
+stability-creep: $(F)/stability-creep.svg ## creep below the friction angle
+$(F)/stability-creep.svg: $(STABILITY_DATA)/creep.tsv \
   plots/creep.gp plots/style.gp
-	$(call stability_draw,creep.gp,$<,stability-creep)
+	$(call draw,creep.gp,$<,stability-creep)
 
 # The cut at lmax, and tapers
 CUT_TAPERS := none shift c1 c2
@@ -86,9 +79,9 @@ $(eval $(call stability_run,cut-merson-none,cut --method merson \
 CUT_RUNS := $(CUT_TAPERS:%=cut-rk8pd-%) cut-merson-none
 $(STABILITY_DATA)/cut.tsv: $(CUT_RUNS:%=$(STABILITY_DATA)/%.tsv)
 	$(call stability_merge,$^) > $@
-stability-cut: $(STABILITY_OUT)/stability-cut.svg ## the floor that the cut at lmax puts under the accuracy
-$(STABILITY_OUT)/stability-cut.svg: $(STABILITY_DATA)/cut.tsv plots/cut.gp plots/style.gp
-	$(call stability_draw,cut.gp,$<,stability-cut)
+stability-cut: $(F)/stability-cut.svg ## the floor that the cut at lmax puts under the accuracy
+$(F)/stability-cut.svg: $(STABILITY_DATA)/cut.tsv plots/cut.gp plots/style.gp
+	$(call draw,cut.gp,$<,stability-cut)
 
 .PHONY: stability stability-regions stability-tunnel stability-drift \
   stability-creep stability-cut

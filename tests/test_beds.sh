@@ -28,7 +28,7 @@ near() { # NAME VALUE LOW HIGH
 D=$B/quick/data
 rm -rf "$D/beds" "$D/precision/horizon"* "$D"/precision/trajectory* \
   "$B"/quick/figures/precision-{settling,seeds,horizon,trajectory}* \
-  "$B"/figures/quick/stability-{map,wrong-bed,vibration}*
+  "$B"/quick/figures/stability-{map,wrong-bed,vibration}*
 targets='settling seeds trajectories stability-map stability-wrong-bed
   stability-vibration'
 # shellcheck disable=SC2086 # several words
@@ -36,7 +36,7 @@ check 'make QUICK=1' make -s -j2 QUICK=1 B="$B" $targets >"$T/log" 2>&1 ||
   cat "$T/log"
 for figure in quick/figures/precision-{settling,horizon} \
   quick/figures/precision-trajectory-8-position-evaluations \
-  figures/quick/stability-{map,wrong-bed,vibration}; do
+  quick/figures/stability-{map,wrong-bed,vibration}; do
   check "$figure.svg is a picture" grep -q '</svg>' "$B/$figure.svg"
 done
 

@@ -5,7 +5,7 @@
 # programs.
 set -u
 B=${B:-build}
-D=$B/data/stability-quick
+D=$B/quick/data/stability
 passed=0 failed=0
 export LC_ALL=C.UTF-8
 
