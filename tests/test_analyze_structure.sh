@@ -1,19 +1,6 @@
 #!/bin/bash
 # analyze contacts, rest, gr and order on beds whose numbers are known.
-B=${B:-build}
-passed=0 failed=0
-T=$(mktemp -d) || exit 1
-trap 'rm -rf "$T"' EXIT
-export LC_ALL=C
-
-check() { # NAME COMMAND...
-  if "${@:2}"; then
-    passed=$((passed + 1))
-  else
-    failed=$((failed + 1))
-    echo "failed: $1" >&2
-  fi
-}
+. tests/harness.sh
 
 near() { # GOT WANT TOLERANCE; NaN and nothing are never near
   awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN {
@@ -22,7 +9,7 @@ near() { # GOT WANT TOLERANCE; NaN and nothing are never near
 }
 
 is() { # NAME GOT WANT [TOLERANCE]
-  if [[ $4 ]]; then
+  if [[ ${4:-} ]]; then
     check "$1: got '$2', want '$3'" near "$2" "$3" "$4"
   else
     check "$1: got '$2', want '$3'" test "$2" = "$3"
@@ -251,5 +238,4 @@ for verb in contacts rest gr order; do
   check "$verb: help fits" awk 'length > 99 && /^  [a-z]/ {exit 1}' "$T/out"
 done
 
-echo "$passed passed, $failed failed"
-[[ $failed == 0 ]]
+check_done

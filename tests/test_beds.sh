@@ -3,27 +3,7 @@
 # docs/precision.md and docs/stability.md say of them must be in the data, and
 # the scripts that count it must count right. Run from the root of the
 # repository; B is the directory of the programs.
-set -u
-export LC_ALL=C
-B=${B:-build}
-T=$(mktemp -d)
-trap 'rm -rf "$T"' EXIT
-passed=0 failed=0
-
-check() { # NAME COMMAND...
-  local name=$1
-  shift
-  if "$@"; then
-    passed=$((passed + 1))
-  else
-    failed=$((failed + 1))
-    echo "failed: $name"
-  fi
-}
-near() { # NAME VALUE LOW HIGH
-  check "$1 is '$2', expected $3 to $4" awk -v x="$2" -v a="$3" -v b="$4" \
-    'BEGIN { exit !(x ~ /^[+-]?[0-9][0-9.e+-]*$/ && x + 0 >= a && x + 0 <= b) }'
-}
+. tests/harness.sh
 
 D=$B/quick/data
 rm -rf "$D/beds" "$D/precision/horizon"* "$D"/precision/trajectory* \
@@ -58,10 +38,10 @@ settled() { # METHOD SETTING COLUMN, of the full model
 # chart's, so bounds are those of the chart's single seeds.
 check 'settling: nothing failed' test \
   "$(cell "$D/beds/settling.tsv" 'c("status") == "failed"' method)" = ''
-near 'Verlet at 1e-3 s is denser' "$(settled verlet 1e-3 difference)" 0.01 0.1
-near 'rkc as settle has it, every seed' "$(settled rkc 5e-4 largest)" 0 0.003
-near 'Merson at 0.1, every seed' "$(settled merson 0.1 largest)" 0 1e-4
-near 'rkc takes less than a fifth of the evaluations of Merson' \
+within 'Verlet at 1e-3 s is denser' "$(settled verlet 1e-3 difference)" 0.01 0.1
+within 'rkc as settle has it, every seed' "$(settled rkc 5e-4 largest)" 0 0.003
+within 'Merson at 0.1, every seed' "$(settled merson 0.1 largest)" 0 1e-4
+within 'rkc takes less than a fifth of the evaluations of Merson' \
   "$(awk -v a="$(settled rkc 5e-4 evaluations)" \
     -v b="$(settled merson 0.1 evaluations)" 'BEGIN { print a / b }')" 0 0.2
 check 'seeds: a row a seed' test \
@@ -83,13 +63,13 @@ done
 mv "$T/2.tsv" "$T/timed/two.tsv"
 awk -f precision/settling.awk "$T"/timed/*.tsv "$T"/[13].tsv >"$T/out"
 is_rkc='c("method") == "rkc"'
-near 'settling.awk: mean' "$(cell "$T/out" "$is_rkc" difference)" 0.003333 \
+within 'settling.awk: mean' "$(cell "$T/out" "$is_rkc" difference)" 0.003333 \
   0.003334
-near 'settling.awk: interval' "$(cell "$T/out" "$is_rkc" interval)" 0.006251 \
+within 'settling.awk: interval' "$(cell "$T/out" "$is_rkc" interval)" 0.006251 \
   0.006253
-near 'settling.awk: rms' "$(cell "$T/out" "$is_rkc" rms)" 0.003915 0.003917
-near 'settling.awk: largest' "$(cell "$T/out" "$is_rkc" largest)" 0.006 0.006
-near 'settling.awk: CPU of the timed run alone' \
+within 'settling.awk: rms' "$(cell "$T/out" "$is_rkc" rms)" 0.003915 0.003917
+within 'settling.awk: largest' "$(cell "$T/out" "$is_rkc" largest)" 0.006 0.006
+within 'settling.awk: CPU of the timed run alone' \
   "$(cell "$T/out" "$is_rkc" cpu_seconds)" 2 2
 sed -i 's/\tok\t/\tgave_up\t/' "$T/1.tsv"
 awk -f precision/settling.awk "$T"/timed/*.tsv "$T"/[13].tsv >"$T/out"
@@ -101,13 +81,13 @@ trajectory() { # SET METHOD CONDITION COLUMN
   cell "$D/precision/$1/$2.tsv" "$3" "$4"
 }
 for set in trajectory-8 trajectory-8-basic; do
-  near "$set: error of the reference" \
+  within "$set: error of the reference" \
     "$(sed -n 's/^# reference_error_position=//p' "$D/precision/$set/rkc.tsv")" \
     1e-16 1e-7
   for method in merson rk8pd rkc; do
     check "$set, $method: ok" test "$(trajectory $set $method \
       'c("status") != "ok"' tol)" = ''
-    near "$set, $method: error at 1e-7 by that at 1e-3" "$(awk \
+    within "$set, $method: error at 1e-7 by that at 1e-3" "$(awk \
       -v a="$(trajectory $set $method 'c("tol") == "0.001"' error_position)" \
       -v b="$(trajectory $set $method 'c("tol") == "1e-07"' error_position)" \
       'BEGIN { print b / a }')" 0 0.02
@@ -120,18 +100,18 @@ eight() {
 }
 eight --method rk8pd --tol 1e-11 >"$T/sharp.bed"
 eight --method merson --tol 1e-3 >"$T/merson.bed"
-near 'error of position by settle over that by precision' "$(awk -f \
+within 'error of position by settle over that by precision' "$(awk -f \
   precision/horizon.awk "$T/sharp.bed" "$T/merson.bed" | awk -F '\t' \
   -v e="$(trajectory trajectory-8 merson 'c("tol") == "0.001"' error_position)" \
   'NR == 2 { print $4 / e }')" 0.98 1.02
 # with friction stability pays for Merson's accuracy: better at equal cost
-near 'with friction Merson at 1e-3 is sharper than rkc at 1e-5' "$(awk \
+within 'with friction Merson at 1e-3 is sharper than rkc at 1e-5' "$(awk \
   -v a="$(trajectory trajectory-8 merson 'c("tol") == "0.001"' error_position)" \
   -v b="$(trajectory trajectory-8 rkc 'c("tol") == "1e-05"' error_position)" \
   'BEGIN { print a / b }')" 0 0.9
 # Verlet halves its error when the step is halved, no more: between 2.5e-5 and
 # 6.25e-6 orders 1 and 2 differ by a factor 4
-near 'Verlet is of first order with friction' "$(awk \
+within 'Verlet is of first order with friction' "$(awk \
   -v a="$(trajectory trajectory-8 verlet 'c("step") == "2.5e-05"' \
     error_position)" \
   -v b="$(trajectory trajectory-8 verlet 'c("step") == "6.25e-06"' \
@@ -141,10 +121,10 @@ horizon() { # VARIANT METHOD
     most = $4 } END { print most + 0 }' "$D/precision/horizon.tsv"
 }
 for variant in basic rotation; do
-  near "$variant: two sharp runs agree" "$(horizon $variant again)" 1e-16 1e-6
-  near "$variant: rkc is near them" "$(horizon $variant rkc)" 1e-5 0.1
+  within "$variant: two sharp runs agree" "$(horizon $variant again)" 1e-16 1e-6
+  within "$variant: rkc is within them" "$(horizon $variant rkc)" 1e-5 0.1
 done
-near 'friction: Merson is nearer than rkc by' "$(awk \
+within 'friction: Merson is nearer than rkc by' "$(awk \
   -v a="$(horizon rotation merson)" -v b="$(horizon rotation rkc)" \
   'BEGIN { print b / a }')" 20 1e6
 
@@ -190,21 +170,20 @@ printf '%s\n' '# f0=10' '# kappa=150' '# friction=0.2' '# vmin=0.01' \
   '# lmax=0.1' $'id\tx\ty\tz\tr\tm' $'0\t0\t0\t0\t0.1\t1' \
   $'1\t0.19\t0\t0\t0.1\t1' '# status=ok' >"$T/two.bed"
 awk -f stability/slip.awk "$T/two.bed" >"$T/two.tsv"
-near 'slip: the last stable step' "$(awk '$2 == 0 { h = $1 }
+within 'slip: the last stable step' "$(awk '$2 == 0 { h = $1 }
   END { print h }' "$T/two.tsv")" 1.89e-4 2.125e-4
-near 'slip: the first unstable one' "$(awk '$2 == 1 { print $1; exit }' \
+within 'slip: the first unstable one' "$(awk '$2 == 1 { print $1; exit }' \
   "$T/two.tsv")" 2.125e-4 2.39e-4
 share() { awk -v h="$1" 'NR > 1 && $1 > h * 0.999 { print $2; exit }' \
   "$D/beds/slip.tsv"; }
-near 'slip: nothing is unstable at 1e-5 s' "$(share 1e-5)" 0 0
-near 'slip: most of the force at 5e-4 s' "$(share 5e-4)" 0.8 1
+within 'slip: nothing is unstable at 1e-5 s' "$(share 1e-5)" 0 0
+within 'slip: most of the force at 5e-4 s' "$(share 5e-4)" 0.8 1
 
 # Stiff spheres come to rest: energies per sphere in a fall of metres are tens
 # of J
 last() { awk 'END { print $3 }' "$D/beds/vibration/$1.tsv"; }
 for run in 500-rkc 500-merson; do
-  near "vibration: $run at 2 s" "$(last $run)" 0 0.01
+  within "vibration: $run at 2 s" "$(last $run)" 0 0.01
 done
 
-echo "$passed passed, $failed failed"
-((failed == 0))
+check_done

@@ -2,25 +2,8 @@
 # The programs as their users meet them: what they refuse and how they say so,
 # what they promise about output, restarts and files. Run from the root of the
 # repository; B is the directory of the programs.
-set -u
-B=${B:-build}
-passed=0 failed=0
-T=$(mktemp -d) || exit 1
-trap 'rm -rf "$T"' EXIT
-export LC_ALL=C
+. tests/harness.sh
 unset DEM_ISA
-
-check() { # NAME CONDITION...: the condition is a command
-  local name=$1
-  shift
-  if "$@"; then
-    passed=$((passed + 1))
-  else
-    failed=$((failed + 1))
-    echo "failed: $name" >&2
-    return 1
-  fi
-}
 
 run() { # PROGRAM ARGUMENT...: into $T/out, $T/err and $status
   local program=$1
@@ -37,13 +20,11 @@ one_line() { # PROGRAM PATTERN: all that was said is one line by it
 judge() { # NAME PROGRAM STATUS PATTERN, after a run
   if ! { [[ $status == "$3" ]] && one_line "$2" "$4" && [[ ! -s $T/out ]]; }
   then
-    failed=$((failed + 1))
-    echo "failed: $1: exit status $status, expected $3 and one line" \
-      "with '$4'; standard error and output:" >&2
-    head -n 5 "$T/err" "$T/out" >&2
-    return 1
+    fail "$1: exit status $status, expected $3 and one line with '$4', and no \
+output: $(head -n 5 "$T/out")"
+  else
+    pass
   fi
-  passed=$((passed + 1))
 }
 
 refuse() { # NAME STATUS PATTERN PROGRAM ARGUMENT...: and no result
@@ -55,13 +36,7 @@ refuse() { # NAME STATUS PATTERN PROGRAM ARGUMENT...: and no result
 succeed() { # NAME PROGRAM ARGUMENT...: quietly
   local name=$1
   run "${@:2}"
-  if ! { [[ $status == 0 ]] && [[ ! -s $T/err ]]; }; then
-    failed=$((failed + 1))
-    echo "failed: $name: exit status $status" >&2
-    head -n 5 "$T/err" >&2
-    return 1
-  fi
-  passed=$((passed + 1))
+  check "$name: exit status $status" test "$status" = 0 -a ! -s "$T/err"
 }
 
 rows() { # of the last frame in a bed
@@ -589,5 +564,4 @@ check 'bounce --rebound, too short: exit status' test $status = 5
 check 'bounce --rebound, too short: message' one_line bounce '--time'
 succeed 'msbdf with a few spheres' settle --count 4 --time 0.05 --method msbdf
 
-echo "$passed passed, $failed failed"
-((failed == 0))
+check_done

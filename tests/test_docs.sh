@@ -1,16 +1,12 @@
 #!/bin/bash
 # The pages are in step with the captions they include, and every file that they
 # name is there.
-set -u
-passed=0 failed=0
+. tests/harness.sh
+
 report() { # NAME STATUS
-  if [ "$2" = 0 ]; then
-    passed=$((passed + 1))
-  else
-    failed=$((failed + 1))
-    echo "failed: $1"
-  fi
+  check "$1" test "$2" = 0
 }
+
 included=0
 for page in README.md docs/*.md; do
   awk -f docs/include.awk "$page" | cmp -s - "$page"
@@ -26,10 +22,7 @@ for page in README.md docs/*.md; do
 done
 ((included > 0))
 report 'no page includes a caption' $?
-T=$(mktemp -d)
-trap 'rm -rf "$T"' EXIT
 printf '<!-- docs/none.md -->\n<!-- end -->\n' > "$T/page"
 ! awk -f docs/include.awk "$T/page" > /dev/null 2>&1
 report 'a missing caption passes' $?
-echo "$passed passed, $failed failed"
-((failed == 0))
+check_done

@@ -2,26 +2,10 @@
 # Pictures and animations of beds: what is on them, where the scripts are found,
 # and what is said when something is missing. Run from the root of the
 # repository; B is the directory of the programs.
-set -u
-B=${B:-build}
-passed=0 failed=0
-T=$(mktemp -d) || exit 1
-trap 'rm -rf "$T"' EXIT
-export LC_ALL=C
+. tests/harness.sh
 export TMPDIR=$T/scratch
 unset DEM_PLOTS
 mkdir "$TMPDIR"
-
-check() { # NAME CONDITION...
-  local name=$1
-  shift
-  if "$@"; then
-    passed=$((passed + 1))
-  else
-    failed=$((failed + 1))
-    echo "failed: $name" >&2
-  fi
-}
 
 # with the variable "environment", if it is set
 refuse() { # NAME STATUS PATTERN ARGUMENT...: one line, no picture
@@ -75,8 +59,8 @@ check 'nothing is left in scratch' test -z "$(ls "$TMPDIR")"
 
 if ! command -v gnuplot >/dev/null; then
   echo 'skipped: pictures (gnuplot is not installed)'
-  echo "$passed passed, $failed failed"
-  exit $((failed > 0))
+  check_done
+  exit
 fi
 
 # --- pictures -----------------------------------------------------------------
@@ -182,5 +166,4 @@ timeout 60 "$B/analyze" draw "$T/one" >/dev/full 2>"$T/err"
 check 'a full disk' test $? = 1 -a "$(grep -c 'No space' "$T/err")" = 1
 check 'nothing is left in scratch' test -z "$(ls "$TMPDIR")"
 
-echo "$passed passed, $failed failed"
-((failed == 0))
+check_done

@@ -3,26 +3,10 @@
 # they are installed) and by our own, frames, file names, refusals. Its binary
 # formats are taken apart in test_export.c. Run from the root of the repository;
 # B is the directory of the programs.
-set -u
-B=${B:-build}
+. tests/harness.sh
 B=$(cd "$B" && pwd) || exit 1
-passed=0 failed=0
-T=$(mktemp -d) || exit 1
-trap 'rm -rf "$T"' EXIT
-export LC_ALL=C OMP_NUM_THREADS=1
+export OMP_NUM_THREADS=1
 python=/usr/bin/python3 # Debian's, which has Debian's packages
-
-check() { # NAME CONDITION...: the condition is a command
-  local name=$1
-  shift
-  if "$@"; then
-    passed=$((passed + 1))
-  else
-    failed=$((failed + 1))
-    echo "failed: $name" >&2
-    return 1
-  fi
-}
 
 export_() { # ARGUMENT...
   timeout 60 "$B/analyze" export "$@" </dev/null
@@ -35,12 +19,9 @@ refuse() { # NAME STATUS PATTERN ARGUMENT...: one line, and no result
   local status=$?
   if [[ $status == "$code" && $(wc -l <"$T/err") == 1 && ! -s $T/out ]] &&
     grep -Eq -e "^analyze: .*$pattern" "$T/err"; then
-    passed=$((passed + 1))
+    pass
   else
-    failed=$((failed + 1))
-    echo "failed: $name: exit status $status, expected $code and" \
-      "'$pattern':" >&2
-    head -n 3 "$T/err" >&2
+    fail "$name: exit status $status, expected $code and '$pattern'"
   fi
 }
 
@@ -344,5 +325,4 @@ else
   echo "test_export.sh: skipped: LAMMPS's readers (lmp not installed)" >&2
 fi
 
-echo "$passed passed, $failed failed"
-((failed == 0))
+check_done

@@ -3,23 +3,7 @@
 # the name; and files that LAMMPS and ASE themselves wrote, where they are
 # installed. Run from the root of the repository; B is the directory of the
 # programs.
-set -u
-B=${B:-build}
-passed=0 failed=0
-T=$(mktemp -d) || exit 1
-trap 'rm -rf "$T"' EXIT
-export LC_ALL=C
-
-check() { # NAME CONDITION...
-  local name=$1
-  shift
-  if "$@"; then
-    passed=$((passed + 1))
-  else
-    failed=$((failed + 1))
-    echo "failed: $name" >&2
-  fi
-}
+. tests/harness.sh
 
 refuse() { # NAME STATUS PATTERN ARGUMENT...: one line, and it fits
   local name=$1 want=$2 pattern=$3
@@ -157,5 +141,4 @@ else
   echo 'skipped: ASE (python3-ase) is not installed'
 fi
 
-echo "$passed passed, $failed failed"
-((failed == 0))
+check_done

@@ -1,27 +1,7 @@
 #!/bin/bash
 # make precision QUICK=1: errors are as small as tolerances promise, orders are
 # those of the methods and of the contact laws' smoothness, failures are marked.
-set -u
-B=${B:-build}
-T=$(mktemp -d)
-trap 'rm -rf "$T"' EXIT
-passed=0 failed=0
-
-check() { # NAME COMMAND...
-  local name=$1
-  shift
-  if "$@"; then
-    passed=$((passed + 1))
-  else
-    failed=$((failed + 1))
-    echo "failed: $name"
-  fi
-}
-# near NAME VALUE LOW HIGH
-near() {
-  check "$1 is $2, expected $3 to $4" awk -v x="$2" -v a="$3" -v b="$4" \
-    'BEGIN { exit !(x ~ /^[0-9.+e-]+$/ && x + 0 >= a && x + 0 <= b) }'
-}
+. tests/harness.sh
 
 rm -rf "$B/quick/data/precision" "$B"/quick/figures/precision-*
 check 'make precision-scenes QUICK=1' \
@@ -46,7 +26,7 @@ for set in bounce-150:time bounce-150:energy collision:gap collision:velocity \
   error=error_${set#*:} set=${set%:*}
   for method in $pairs rkc; do
     check "$set, $method: ok" test "$(value $set $method -1 status)" = ok
-    near "$set, $method: $error" "$(value $set $method -1 $error)" 0 \
+    within "$set, $method: $error" "$(value $set $method -1 $error)" 0 \
       "$(awk -v n="$(value $set $method -1 accepted)" \
         'BEGIN {print 6 * 41 * 1.1e-7 * (n + 1)}')"
     check "$set, $method: $error falls" awk \
@@ -54,11 +34,11 @@ for set in bounce-150:time bounce-150:energy collision:gap collision:velocity \
       -v b="$(value $set $method -1 $error)" 'BEGIN {exit !(b < a / 10)}'
   done
   # a multistep method's errors are known in advance only to some factor
-  near "$set, msbdf: $error" "$(value $set msbdf -1 $error)" 0 1e-3
+  within "$set, msbdf: $error" "$(value $set msbdf -1 $error)" 0 1e-3
 done
 # The law with a memory that is kept up to date between steps: no control sees
 # what a long step does to it.
-near 'walton-braun, rk8pd at 1e-7: error' \
+within 'walton-braun, rk8pd at 1e-7: error' \
   "$(value walton-braun rk8pd -1 error_gap)" 1e-3 1
 
 # By what an error falls as the step is halved: second order, and first where
@@ -67,7 +47,7 @@ for set in collision:gap:4 exponential:gap:4 toda-6:eigenvalue:4 \
   bounce-150:time:4 restitution:speed:2 exponential-inelastic:gap:2 \
   rolling:velocity:2; do
   IFS=: read -r name error factor <<<"$set"
-  near "$name, verlet: halved step" "$(awk \
+  within "$name, verlet: halved step" "$(awk \
     -v a="$(value $name verlet -2 error_$error)" \
     -v b="$(value $name verlet -1 error_$error)" 'BEGIN {print a / b}')" \
     "$(awk "BEGIN {print 0.8 * $factor}")" \
@@ -75,9 +55,9 @@ for set in collision:gap:4 exponential:gap:4 toda-6:eigenvalue:4 \
 done
 # symmetric in time: v0 again, and again as much energy, but for rounding in
 # each step
-near 'collision, verlet: velocity' \
+within 'collision, verlet: velocity' \
   "$(value collision verlet -1 error_velocity)" 0 1e-12
-near 'bounce, verlet: energy' "$(value bounce-150 verlet -1 error_energy)" 0 \
+within 'bounce, verlet: energy' "$(value bounce-150 verlet -1 error_energy)" 0 \
   1e-11
 
 # order METHOD SET
@@ -90,7 +70,7 @@ orders() { # SET ORDER TOLERANCE METHOD...
   local method set=$1 low high
   low=$(awk "BEGIN {print $2 - $3}") high=$(awk "BEGIN {print $2 + $3}")
   for method in "${@:4}"; do
-    near "$set, $method: order" "$(order $method $set)" $low $high
+    within "$set, $method: order" "$(order $method $set)" $low $high
   done
 }
 orders exponential 2 0.1 verlet
@@ -138,5 +118,4 @@ for arguments in '' bounce '--rung 1e-3 bounce' 'nosuch --rung 1e-3' \
   check "precision $arguments: exit status" test $? = 2
 done
 
-echo "$passed passed, $failed failed"
-((failed == 0))
+check_done

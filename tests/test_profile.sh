@@ -1,24 +1,7 @@
 #!/bin/bash
 # analyze fraction with many boxes, profile and radius as their users meet them.
 # Run from the root of the repository; B is the directory of the programs.
-set -u
-B=${B:-build}
-passed=0 failed=0
-T=$(mktemp -d) || exit 1
-trap 'rm -rf "$T"' EXIT
-export LC_ALL=C
-
-check() { # NAME CONDITION...: the condition is a command
-  local name=$1
-  shift
-  if "$@"; then
-    passed=$((passed + 1))
-  else
-    failed=$((failed + 1))
-    echo "failed: $name" >&2
-    head -n 3 "$T/err" >&2
-  fi
-}
+. tests/harness.sh
 
 run() { # PROGRAM ARGUMENT...: into $T/out, $T/err and $status
   local program=$1
@@ -231,5 +214,4 @@ cp "$T/out" "$T/re"
 run analyze "$T/re"
 check "radius: read again" is 'near(r["sum"], 8 * pi / 3 * 0.15 ^ 3, 1e-14)'
 
-echo "$passed passed, $failed failed"
-((failed == 0))
+check_done

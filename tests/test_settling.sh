@@ -2,22 +2,7 @@
 # The main job at its full size: 200 spheres for 8 s. Ranges are the paper's
 # levels and those that its author's program reaches (README, "Paper and ours");
 # two methods must agree on the bed.
-set -u
-B=${B:-build}
-T=$(mktemp -d)
-trap 'rm -rf "$T"' EXIT
-passed=0 failed=0
-
-# check NAME VALUE LOW HIGH
-check() {
-  if awk -v x="$2" -v a="$3" -v b="$4" \
-    'BEGIN { exit !(x != "" && x + 0 >= a && x + 0 <= b) }'; then
-    passed=$((passed + 1))
-  else
-    failed=$((failed + 1))
-    echo "failed: $1 is $2, expected $3 to $4"
-  fi
-}
+. tests/harness.sh
 
 # settle_bed NAME OPTION...: runs in the background into files of that name
 settle_bed() {
@@ -42,28 +27,27 @@ wait
 
 for seed in 1 2 3; do
   for name in basic-merson-$seed basic-$seed; do
-    check "$name: sum" "$(sum $name)" 0.70 0.72
-    check "$name: sum - union" \
+    within "$name: sum" "$(sum $name)" 0.70 0.72
+    within "$name: sum - union" \
       "$(difference "$(sum $name)" "$(union $name)")" 0.006 0.010
   done
-  check "basic-merson-$seed: evaluations" \
+  within "basic-merson-$seed: evaluations" \
     "$(stat basic-merson-$seed rhs_evaluations)" 65000 90000
-  check "rotation-$seed: sum" "$(sum rotation-$seed)" 0.63 0.68
-  check "rotation-$seed: evaluations" \
+  within "rotation-$seed: sum" "$(sum rotation-$seed)" 0.63 0.68
+  within "rotation-$seed: evaluations" \
     "$(stat rotation-$seed rhs_evaluations)" 30000 110000
 done
-check 'friction: sum' "$(sum friction)" 0.43 0.53
-check 'rotation-merson: evaluations' \
+within 'friction: sum' "$(sum friction)" 0.43 0.53
+within 'rotation-merson: evaluations' \
   "$(stat rotation-merson rhs_evaluations)" 1000000 1300000
-check 'rotation: two methods, one bed' \
+within 'rotation: two methods, one bed' \
   "$(difference "$(union rotation-1)" "$(union rotation-merson)")" -0.003 0.003
 # 200 spheres of 4/3 pi r^3 in a box as high as the bed: nothing is lost
-check 'all volume is there' "$("$B/analyze" --box -9,9,-9,9,-9,99 \
+within 'all volume is there' "$("$B/analyze" --box -9,9,-9,9,-9,99 \
   "$T/rotation-1.bed" | awk 'NR == 2 { print $2 * 18 * 18 * 108 / (200 * 4e-3 / 3 * atan2(0, -1)) - 1
   }')" -1e-12 1e-12
-check 'a settled bed is at rest but for creep' "$(awk '
+within 'a settled bed is at rest but for creep' "$(awk '
   /^[0-9]/ { v = sqrt($7^2 + $8^2 + $9^2); if (v > most) most = v }
   END { print most }' "$T/rotation-1.bed")" 0 0.05
 
-echo "$passed passed, $failed failed"
-((failed == 0))
+check_done

@@ -3,22 +3,8 @@
 # stability-...` runs them, and what the page docs/stability.md says of them must
 # be in the data. Run from the root of the repository; B is the directory of the
 # programs.
-set -u
-B=${B:-build}
+. tests/harness.sh
 D=$B/quick/data/stability
-passed=0 failed=0
-export LC_ALL=C.UTF-8
-
-check() { # NAME COMMAND...
-  local name=$1
-  shift
-  if "$@"; then
-    passed=$((passed + 1))
-  else
-    failed=$((failed + 1))
-    echo "failed: $name" >&2
-  fi
-}
 
 # in_range NAME FILE PROGRAM: the awk program prints a value and its bounds for
 # rows of FILE, whose columns are c["name"]; there must be some, all in range
@@ -132,5 +118,4 @@ for section in 'Stability limits' 'Penetration' 'Wrong beds' \
     grep -q "^## $section\$" docs/stability.md
 done
 
-echo "$passed passed, $failed failed"
-((failed == 0))
+check_done

@@ -2,12 +2,7 @@
 # What settle and bounce say of a run that goes wrong, made to go wrong here,
 # and that they say nothing of a good one. Run from the root of the repository;
 # B is the directory of the programs.
-set -u
-B=${B:-build}
-passed=0 failed=0
-T=$(mktemp -d) || exit 1
-trap 'rm -rf "$T"' EXIT
-export LC_ALL=C
+. tests/harness.sh
 
 run() { # PROGRAM ARGUMENT...: into $T/out, $T/err, $T/stats and $status
   said="$*"
@@ -16,18 +11,6 @@ run() { # PROGRAM ARGUMENT...: into $T/out, $T/err, $T/stats and $status
   [[ $1 == settle ]] && stats=(--stats "$T/stats")
   timeout 60 "$B/$1" "${@:2}" "${stats[@]}" >"$T/out" 2>"$T/err" </dev/null
   status=$?
-}
-
-check() { # NAME CONDITION...: after a run
-  local name=$1
-  shift
-  if "$@"; then
-    passed=$((passed + 1))
-  else
-    failed=$((failed + 1))
-    echo "failed: $said: $name; exit status $status" >&2
-    head -n 5 "$T/err" >&2
-  fi
 }
 
 key() { # NAME CONDITION: of the statistics, in terms of x
@@ -223,5 +206,4 @@ for threads in 1 2; do
 done
 check 'the same statistics' cmp "$T/stats1" "$T/stats2"
 
-echo "$passed passed, $failed failed"
-((failed == 0))
+check_done

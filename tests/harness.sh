@@ -1,0 +1,39 @@
+# What the test scripts have in common; sourced, from the root of the repository,
+# first thing. B is the directory of the programs, T a scratch one. A script ends
+# with check_done.
+set -u
+export LC_ALL=C.UTF-8 # what gnuplot needs for its labels
+B=${B:-build}
+T=$(mktemp -d) || exit 1
+trap 'rm -rf "$T"' EXIT
+passed=0 failed=0
+said= # what a check is of, if that is not in its name
+
+pass() {
+  passed=$((passed + 1))
+}
+
+fail() { # NAME; what the last program said, if it is in $T/err, comes after it
+  failed=$((failed + 1))
+  echo "failed: ${said:+$said: }$1" >&2
+  [[ ! -s $T/err ]] || head -n 5 "$T/err" >&2
+  return 1
+}
+
+check() { # NAME CONDITION...: the condition is a command
+  if "${@:2}"; then
+    pass
+  else
+    fail "$1"
+  fi
+}
+
+within() { # NAME VALUE LOW HIGH: a number, and in that range
+  check "$1 is '$2', expected $3 to $4" awk -v x="$2" -v a="$3" -v b="$4" \
+    'BEGIN { exit !(x ~ /^[+-]?[0-9][0-9.e+-]*$/ && x + 0 >= a && x + 0 <= b) }'
+}
+
+check_done() { # the last line, and the exit status of the script
+  echo "$passed passed, $failed failed"
+  ((failed == 0))
+}
