@@ -7,7 +7,7 @@ SHELL := /bin/bash
 CC ?= gcc
 CFLAGS ?= -O3 -g
 WARNINGS := -Wall -Wextra
-INCLUDES := -Icommon -Ianalyze -Isettle -Iprecision -Istability -Itests
+INCLUDES := -Icommon
 # GSL elsewhere than the compiler looks: GSL_CFLAGS=-I... GSL_LIBS='-L... ...'
 GSL_CFLAGS ?=
 GSL_LIBS ?= -lgsl -lgslcblas -lm
@@ -35,10 +35,10 @@ else
 KERNELS := native
 MARCH_native :=
 endif
-KERNEL_OBJECTS := $(KERNELS:%=$(O)/common/kernel_%.o)
+KERNEL_OBJECTS := $(KERNELS:%=$(O)/common/dynamics/kernel_%.o)
 
-COMMON_OBJECTS := $(patsubst %.c,$(O)/%.o,$(filter-out common/kernel.c,\
-	$(wildcard common/*.c))) $(KERNEL_OBJECTS)
+COMMON_OBJECTS := $(patsubst %.c,$(O)/%.o,$(filter-out common/dynamics/kernel.c,\
+	$(wildcard common/*/*.c))) $(KERNEL_OBJECTS)
 LIBRARY := $(B)/libdem.a
 
 # A change of compiler or flags rebuilds everything.
@@ -51,9 +51,9 @@ $(O)/%.o: %.c $(B)/flags
 	$(CC) $(ALL_CFLAGS) -MMD -MP -c $< -o $@
 
 # Their inner loops are roots, which errno would keep from being vectorized.
-$(O)/common/ball_cell.o $(O)/common/voxels.o: ALL_CFLAGS += -fno-math-errno
+$(O)/common/geometry/ball_cell.o $(O)/common/geometry/voxels.o: ALL_CFLAGS += -fno-math-errno
 
-$(KERNEL_OBJECTS): $(O)/common/kernel_%.o: common/kernel.c $(B)/flags
+$(KERNEL_OBJECTS): $(O)/common/dynamics/kernel_%.o: common/dynamics/kernel.c $(B)/flags
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) $(KERNEL_CFLAGS) $(MARCH_$*) -DKERNEL_ISA=$* \
 	  -MMD -MP -c $< -o $@
@@ -90,9 +90,9 @@ check: all $(B)/stability $(TEST_PROGRAMS) ## run the tests (minutes)
 # read again by tests/test_formats.c.
 FUZZ_CC ?= clang
 FUZZ_SECONDS ?= 60
-FUZZ_SOURCES := tests/fuzz_readers.c $(addprefix common/,bed.c bed_io.c \
-	bed_reader.c read_bed.c read_lammps.c read_xyz.c options.c)
-$(B)/fuzz/readers: $(FUZZ_SOURCES) common/bed_io.h common/bed_reader.h
+FUZZ_SOURCES := tests/fuzz_readers.c $(wildcard common/files/*.c) \
+	common/model/bed.c common/program/options.c
+$(B)/fuzz/readers: $(FUZZ_SOURCES) $(wildcard common/files/*.h)
 	@mkdir -p $(@D)
 	$(FUZZ_CC) -std=c11 -O1 -g -fsanitize=fuzzer,address,undefined \
 	  -fno-sanitize-recover=undefined $(WARNINGS) $(INCLUDES) $(GSL_CFLAGS) \

@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
-#include "box.h"
+#include "geometry/box.h"
 #include "measure.h"
-#include "network.h"
-#include "shared_options.h"
+#include "measure/network.h"
+#include "program/shared_options.h"
 #include "verbs.h"
 
 /* Without friction a sphere is held from all sides by 4 contacts at least;

@@ -8,10 +8,10 @@
 #ifdef _OPENMP
 #include <omp.h>
 #endif
-#include "files.h"
+#include "program/files.h"
 #include "frames.h"
 #include "measure.h"
-#include "options.h"
+#include "program/options.h"
 #include "verbs.h"
 #include "writers.h"
 

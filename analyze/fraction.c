@@ -8,13 +8,13 @@
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
-#include "box.h"
-#include "files.h"
+#include "geometry/box.h"
+#include "program/files.h"
 #include "frames.h"
 #include "measure.h"
-#include "options.h"
+#include "program/options.h"
 #include "verbs.h"
-#include "volume.h"
+#include "geometry/volume.h"
 
 struct boxes {
   size_t count, size;

@@ -3,8 +3,8 @@
 
 #include <unistd.h>
 #include <gsl/gsl_errno.h>
-#include "files.h"
-#include "options.h"
+#include "program/files.h"
+#include "program/options.h"
 
 void frames_open(struct frames *f, const struct frames_options *o, int argc,
                  char **argv, int first) {

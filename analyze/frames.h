@@ -3,8 +3,8 @@
 #define FRAMES_H
 
 #include <float.h>
-#include "bed_io.h"
-#include "options.h"
+#include "files/bed_io.h"
+#include "program/options.h"
 
 struct frames_options {
   bool allow_partial; /* take what is complete of a file without a good end */

@@ -4,10 +4,10 @@
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
-#include "box.h"
-#include "correlation.h"
+#include "geometry/box.h"
+#include "measure/correlation.h"
 #include "measure.h"
-#include "shared_options.h"
+#include "program/shared_options.h"
 #include "verbs.h"
 
 struct gr {

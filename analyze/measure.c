@@ -5,9 +5,9 @@
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
-#include "box.h"
-#include "radius.h"
-#include "scene_options.h"
+#include "geometry/box.h"
+#include "measure/radius.h"
+#include "program/scene_options.h"
 
 void box_check(const struct option_list *box) {
   if (box->count && !box_valid(box->at))

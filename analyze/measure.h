@@ -4,8 +4,8 @@
 
 #include <stdbool.h>
 #include "frames.h"
-#include "options.h"
-#include "scene.h"
+#include "program/options.h"
+#include "model/scene.h"
 
 /* Row of an option table: a box, into a struct option_list; without numbers
    until it is given. */

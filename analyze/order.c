@@ -5,10 +5,10 @@
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
-#include "bond_order.h"
-#include "box.h"
+#include "measure/bond_order.h"
+#include "geometry/box.h"
 #include "measure.h"
-#include "shared_options.h"
+#include "program/shared_options.h"
 #include "verbs.h"
 
 struct order {

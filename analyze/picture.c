@@ -13,7 +13,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include "measure.h"
-#include "neighbors.h"
+#include "geometry/neighbors.h"
 
 const char *const picture_colors[] = {"height",   "speed", "radius",
                                       "contacts", "id",    NULL};

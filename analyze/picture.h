@@ -4,9 +4,9 @@
 #ifndef PICTURE_H
 #define PICTURE_H
 
-#include "bed_io.h"
-#include "files.h"
-#include "options.h"
+#include "files/bed_io.h"
+#include "program/files.h"
+#include "program/options.h"
 
 struct picture {
   const char *color;       /* one of picture_colors */

@@ -8,10 +8,10 @@
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
-#include "area.h"
+#include "geometry/area.h"
 #include "frames.h"
 #include "measure.h"
-#include "options.h"
+#include "program/options.h"
 #include "verbs.h"
 
 static const char *const axes[] = {"x", "y", "z", NULL};

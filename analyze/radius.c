@@ -6,13 +6,13 @@
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
-#include "box.h"
+#include "geometry/box.h"
 #include "frames.h"
 #include "measure.h"
-#include "options.h"
-#include "radius.h"
+#include "program/options.h"
+#include "measure/radius.h"
 #include "verbs.h"
-#include "volume.h"
+#include "geometry/volume.h"
 
 static const char *const measures[] = {"union", "sum", NULL};
 

@@ -4,14 +4,14 @@
 #include <stdlib.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
-#include "box.h"
-#include "dynamics.h"
+#include "geometry/box.h"
+#include "dynamics/dynamics.h"
 #include "measure.h"
-#include "network.h"
-#include "rest.h"
-#include "shared_options.h"
+#include "measure/network.h"
+#include "model/rest.h"
+#include "program/shared_options.h"
 #include "verbs.h"
-#include "volume.h"
+#include "geometry/volume.h"
 
 /* Mean net force on a sphere by the mean force of a contact; a contact is what
    touches. */

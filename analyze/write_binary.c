@@ -1,6 +1,6 @@
 /* What binary formats share: byte order and the frame of VTK's XML. */
 #include <string.h>
-#include "version.h"
+#include "program/version.h"
 #include "writers.h"
 
 static bool little_endian(void) {

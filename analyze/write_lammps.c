@@ -1,7 +1,7 @@
 /* LAMMPS: a text dump, which read_dump and rerun take, and a data file of atom
    style sphere, which read_data takes. */
 #include <gsl/gsl_math.h>
-#include "version.h"
+#include "program/version.h"
 #include "writers.h"
 
 void write_lammps(FILE *out, const struct write_frame *f,

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <gsl/gsl_math.h>
-#include "options.h"
-#include "vec3.h"
-#include "version.h"
+#include "program/options.h"
+#include "geometry/vec3.h"
+#include "program/version.h"
 #include "writers.h"
 
 /* Corners and faces, counter-clockwise from outside. */

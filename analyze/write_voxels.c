@@ -6,8 +6,8 @@
 #include <unistd.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
-#include "options.h"
-#include "voxels.h"
+#include "program/options.h"
+#include "geometry/voxels.h"
 #include "writers.h"
 
 /* Numbers held at a time: 16 MB. */

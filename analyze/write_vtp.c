@@ -1,7 +1,7 @@
 /* VTK XML PolyData: a vertex a sphere, with its radius and motion as point
    data; raw appended, so that numbers are exact and files small. */
 #include <stdlib.h>
-#include "options.h"
+#include "program/options.h"
 #include "writers.h"
 
 enum {

@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
-#include "bed.h"
+#include "model/bed.h"
 
 struct write_options {
   double box[6];   /* of the voxels (m) */

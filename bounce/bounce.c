@@ -9,11 +9,11 @@
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_poly.h>
 #include <gsl/gsl_roots.h>
-#include "options.h"
-#include "scene.h"
-#include "shared_options.h"
-#include "travel.h"
-#include "version.h"
+#include "program/options.h"
+#include "model/scene.h"
+#include "program/shared_options.h"
+#include "model/travel.h"
+#include "program/version.h"
 
 struct drop {
   struct contact_law law;

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
-#include "closed_forms.h"
+#include "model/closed_forms.h"
 #include "measure.h"
 
 static const double height = 16;

@@ -2,7 +2,7 @@
    ends: against sech^2. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
-#include "closed_forms.h"
+#include "model/closed_forms.h"
 #include "measure.h"
 
 static const double radius = 0.1;

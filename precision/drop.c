@@ -1,7 +1,7 @@
 #include "drop.h"
 
 #include <gsl/gsl_errno.h>
-#include "travel.h"
+#include "model/travel.h"
 
 double drop_contact(const struct drop *d, double gap, double rate,
                     double slope[2]) {

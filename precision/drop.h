@@ -3,7 +3,7 @@
 #ifndef DROP_H
 #define DROP_H
 
-#include "contact.h"
+#include "model/contact.h"
 #include "scenes.h"
 
 struct drop {

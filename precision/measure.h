@@ -3,7 +3,7 @@
 #define MEASURE_H
 
 #include "drop.h"
-#include "motion.h"
+#include "dynamics/motion.h"
 #include "scenes.h"
 
 /* The word "ok" of these functions, to be compared by address. */

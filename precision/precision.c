@@ -6,8 +6,8 @@
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include "measure.h"
-#include "shared_options.h"
-#include "version.h"
+#include "program/shared_options.h"
+#include "program/version.h"
 
 /* clang-format off */
 static const struct precision_scene *const scenes[] = {

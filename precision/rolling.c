@@ -4,7 +4,7 @@
    over MEASURE_STARTS runs. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
-#include "closed_forms.h"
+#include "model/closed_forms.h"
 #include "measure.h"
 
 static const double radius = 0.1, direction[2] = {0.6, 0.8};

@@ -4,8 +4,8 @@
 #ifndef SCENES_H
 #define SCENES_H
 
-#include "integrate.h"
-#include "scene.h"
+#include "steppers/integrate.h"
+#include "model/scene.h"
 
 enum { PRECISION_ERRORS = 4 };
 

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
-#include "fill.h"
+#include "model/fill.h"
 #include "measure.h"
 
 /* Tolerances of the two runs of the reference (m/s), the sharper one last. */

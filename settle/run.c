@@ -9,9 +9,9 @@
 #include <unistd.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
-#include "files.h"
-#include "rest.h"
-#include "motion.h"
+#include "program/files.h"
+#include "model/rest.h"
+#include "dynamics/motion.h"
 #include "watch.h"
 
 struct run {

@@ -2,7 +2,7 @@
 #ifndef RUN_H
 #define RUN_H
 
-#include "bed_io.h"
+#include "files/bed_io.h"
 #include "settings.h"
 
 /* Integrates and writes frames to standard output; returns the program's exit

@@ -2,10 +2,10 @@
 #ifndef SETTINGS_H
 #define SETTINGS_H
 
-#include "fill.h"
-#include "integrate.h"
-#include "options.h"
-#include "scene_options.h"
+#include "model/fill.h"
+#include "steppers/integrate.h"
+#include "program/options.h"
+#include "program/scene_options.h"
 
 struct settings {
   struct fill fill;

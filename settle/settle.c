@@ -6,7 +6,7 @@
 #include <omp.h>
 #endif
 #include "run.h"
-#include "shared_options.h"
+#include "program/shared_options.h"
 #include "start.h"
 
 static const char *const pair_searches[] = {"cells", "all", NULL};

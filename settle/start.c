@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include <gsl/gsl_errno.h>
-#include "files.h"
-#include "neighbors.h"
-#include "radius.h"
-#include "version.h"
+#include "program/files.h"
+#include "geometry/neighbors.h"
+#include "measure/radius.h"
+#include "program/version.h"
 
 /* Settled spheres overlap, the more so the softer they are (kappa = 30: by
    0.12 m); closer than this they were never a bed. */

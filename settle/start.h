@@ -2,7 +2,7 @@
 #ifndef START_H
 #define START_H
 
-#include "bed_io.h"
+#include "files/bed_io.h"
 #include "settings.h"
 
 /* Fills the bed and completes the settings: a file's header sets what the

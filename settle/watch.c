@@ -10,7 +10,7 @@
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_rstat.h>
 #include <gsl/gsl_statistics.h>
-#include "stiffness.h"
+#include "steppers/stiffness.h"
 
 /* Overlap that calls for a warning, in radii. */
 static const double deep_overlap = 0.5;

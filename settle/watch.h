@@ -8,8 +8,8 @@
 #define WATCH_H
 
 #include <stdio.h>
-#include "bed.h"
-#include "motion.h"
+#include "model/bed.h"
+#include "dynamics/motion.h"
 #include "settings.h"
 
 struct watch;

@@ -7,9 +7,9 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_math.h>
-#include "closed_forms.h"
-#include "motion.h"
-#include "shared_options.h"
+#include "model/closed_forms.h"
+#include "dynamics/motion.h"
+#include "program/shared_options.h"
 #include "verbs.h"
 
 static const double radius = 0.1, gravity = 9.81;

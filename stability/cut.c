@@ -11,11 +11,11 @@
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
-#include "closed_forms.h"
-#include "integrate.h"
-#include "scene.h"
-#include "shared_options.h"
-#include "travel.h"
+#include "model/closed_forms.h"
+#include "steppers/integrate.h"
+#include "model/scene.h"
+#include "program/shared_options.h"
+#include "model/travel.h"
 #include "verbs.h"
 
 static const char *const tapers[] = {"none", "shift", "c1", "c2", NULL};

@@ -9,8 +9,8 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_rng.h>
-#include "motion.h"
-#include "shared_options.h"
+#include "dynamics/motion.h"
+#include "program/shared_options.h"
 #include "verbs.h"
 
 static const double radius = 0.1, gravity = 9.81;

@@ -16,10 +16,10 @@
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
-#include "closed_forms.h"
-#include "dynamics.h"
-#include "rkc.h"
-#include "shared_options.h"
+#include "model/closed_forms.h"
+#include "dynamics/dynamics.h"
+#include "steppers/rkc.h"
+#include "program/shared_options.h"
 #include "stepper.h"
 #include "verbs.h"
 

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <gsl/gsl_errno.h>
-#include "shared_options.h"
+#include "program/shared_options.h"
 #include "stepper.h"
 #include "verbs.h"
 

@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 #include "verbs.h"
-#include "version.h"
+#include "program/version.h"
 
 static const struct {
   const char *name, *summary;

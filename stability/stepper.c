@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include <gsl/gsl_errno.h>
-#include "integrate.h"
-#include "rkc.h"
-#include "stiffness.h"
-#include "verlet.h"
+#include "steppers/integrate.h"
+#include "steppers/rkc.h"
+#include "steppers/stiffness.h"
+#include "steppers/verlet.h"
 
 int stepper_alloc(struct stepper *s, struct stepper_kind kind, size_t dim,
                   size_t row, size_t positions) {

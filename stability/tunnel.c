@@ -9,8 +9,8 @@
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
-#include "motion.h"
-#include "shared_options.h"
+#include "dynamics/motion.h"
+#include "program/shared_options.h"
 #include "verbs.h"
 
 enum outcome { BOUNCED, MISSED, WRONG, FAILED, OUTCOMES };

@@ -3,7 +3,7 @@
 #ifndef STABILITY_VERBS_H
 #define STABILITY_VERBS_H
 
-#include "options.h"
+#include "program/options.h"
 
 int verb_limits(int argc, char **argv);
 int verb_regions(int argc, char **argv);

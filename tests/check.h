@@ -11,7 +11,7 @@
 static size_t check_passed, check_failed;
 
 static inline int check_report(bool ok, const char *file, int line,
-                                const char *what) {
+                               const char *what) {
   if (ok)
     check_passed++;
   else {
@@ -22,7 +22,7 @@ static inline int check_report(bool ok, const char *file, int line,
 }
 
 static inline int check_close(double got, double want, double tol,
-                               const char *file, int line, const char *what) {
+                              const char *file, int line, const char *what) {
   const bool ok = fabs(got - want) <= tol;
   if (!check_report(ok, file, line, what))
     fprintf(stderr, "  got %.17g, want %.17g, |difference| %.3g > %.3g\n", got,
@@ -38,7 +38,7 @@ static inline int check_close(double got, double want, double tol,
               #got " ~ " #want " within " #tol)
 /* |got - want| <= tol |want| */
 #define CHECK_REL(got, want, tol)                                              \
-  check_close((got), (want), (tol) * fabs(want), __FILE__, __LINE__,           \
+  check_close((got), (want), (tol)*fabs(want), __FILE__, __LINE__,             \
               #got " ~ " #want " within " #tol " relative")
 
 static inline int check_done(void) {

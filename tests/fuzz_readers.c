@@ -7,7 +7,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include "bed_io.h"
+#include "files/bed_io.h"
 
 #define REQUIRE(condition)                                                     \
   do {                                                                         \

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
-#include "bed.h"
+#include "model/bed.h"
 
 struct lattice {
   const char *name;

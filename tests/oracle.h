@@ -8,8 +8,8 @@
 
 #include <math.h>
 #include <stddef.h>
-#include "bed.h"
-#include "scene.h"
+#include "model/bed.h"
+#include "model/scene.h"
 
 /* What a contact does to sphere i, and what that follows from. */
 struct oracle_contact {

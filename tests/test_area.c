@@ -11,9 +11,9 @@
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_rng.h>
-#include "area.h"
+#include "geometry/area.h"
 #include "check.h"
-#include "volume.h"
+#include "geometry/volume.h"
 
 #define ULPS(n) ((n)*DBL_EPSILON)
 

@@ -10,7 +10,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include "bed_io.h"
+#include "files/bed_io.h"
 #include "check.h"
 
 /* --- a file in memory, read to its end -------------------------------------*/

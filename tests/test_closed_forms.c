@@ -21,8 +21,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include "check.h"
-#include "closed_forms.h"
-#include "motion.h"
+#include "model/closed_forms.h"
+#include "dynamics/motion.h"
 
 #define ULPS(n) ((n)*DBL_EPSILON)
 #define COUNT(array) (sizeof(array) / sizeof *(array))

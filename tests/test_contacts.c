@@ -1,16 +1,16 @@
-/* Contacts, their forces, coordination, rattlers and loads (common/network), a
-   scene from a header (common/scene_options), and the rest criterion. */
+/* Contacts, their forces, coordination, rattlers and loads (measure/network), a
+   scene from a header (program/scene_options), and the rest criterion. */
 #include <stdlib.h>
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_rng.h>
 #include "check.h"
-#include "dynamics.h"
-#include "integrate.h"
+#include "dynamics/dynamics.h"
+#include "steppers/integrate.h"
 #include "lattice.h"
-#include "network.h"
-#include "scene_options.h"
+#include "measure/network.h"
+#include "program/scene_options.h"
 
 static const double eps = GSL_DBL_EPSILON;
 

@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 #include "check.h"
-#include "dynamics.h"
+#include "dynamics/dynamics.h"
 #include "oracle.h"
 
 static const enum scene_model models[3] = {SCENE_BASIC, SCENE_FRICTION,

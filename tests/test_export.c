@@ -10,9 +10,9 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_rng.h>
-#include "bed_io.h"
+#include "files/bed_io.h"
 #include "check.h"
-#include "volume.h"
+#include "geometry/volume.h"
 
 static char bed_path[] = "/tmp/test_export.XXXXXX";
 

@@ -5,7 +5,7 @@
 #include "fuzz_readers.c" /* the checks that fuzzing makes */
 
 #include <dirent.h>
-#include "bed.h"
+#include "model/bed.h"
 #include "check.h"
 
 struct frames_read {

@@ -9,9 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include "check.h"
-#include "dopri5.h"
-#include "integrate.h"
-#include "merson.h"
+#include "steppers/dopri5.h"
+#include "steppers/integrate.h"
+#include "steppers/merson.h"
 
 #define ULPS(n) ((n)*DBL_EPSILON)
 #define COUNT(array) (sizeof(array) / sizeof *(array))

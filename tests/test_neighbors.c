@@ -10,7 +10,7 @@
 #include <time.h>
 #include <unistd.h>
 #include "check.h"
-#include "neighbors.h"
+#include "geometry/neighbors.h"
 
 static double uniform(gsl_rng *rng, double a, double b) {
   return a + (b - a) * gsl_rng_uniform(rng);

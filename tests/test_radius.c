@@ -7,8 +7,8 @@
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_rng.h>
 #include "check.h"
-#include "radius.h"
-#include "volume.h"
+#include "measure/radius.h"
+#include "geometry/volume.h"
 
 #define ULPS(n) ((n)*DBL_EPSILON)
 

@@ -11,13 +11,13 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include "bed.h"
+#include "model/bed.h"
 #include "check.h"
-#include "control.h"
-#include "dynamics.h"
-#include "integrate.h"
-#include "rkc.h"
-#include "scene.h"
+#include "steppers/control.h"
+#include "dynamics/dynamics.h"
+#include "steppers/integrate.h"
+#include "steppers/rkc.h"
+#include "model/scene.h"
 
 #define ULPS(n) ((n)*DBL_EPSILON)
 #define COUNT(array) (sizeof(array) / sizeof *(array))

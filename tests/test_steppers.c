@@ -17,10 +17,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include "check.h"
-#include "control.h"
-#include "dopri5.h"
-#include "merson.h"
-#include "verlet.h"
+#include "steppers/control.h"
+#include "steppers/dopri5.h"
+#include "steppers/merson.h"
+#include "steppers/verlet.h"
 
 #define ULPS(n) ((n)*DBL_EPSILON)
 #define COUNT(array) (sizeof(array) / sizeof *(array))

@@ -1,4 +1,5 @@
-/* Pair correlation (common/correlation) and bond order (common/bond_order). */
+/* Pair correlation (measure/correlation) and bond order (measure/bond_order).
+ */
 #include <stdlib.h>
 #include <string.h>
 #include <gsl/gsl_cdf.h>
@@ -7,11 +8,11 @@
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 #include <gsl/gsl_sf_legendre.h>
-#include "bond_order.h"
+#include "measure/bond_order.h"
 #include "check.h"
-#include "correlation.h"
+#include "measure/correlation.h"
 #include "lattice.h"
-#include "vec3.h"
+#include "geometry/vec3.h"
 
 static const double eps = GSL_DBL_EPSILON;
 

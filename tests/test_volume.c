@@ -16,8 +16,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include "check.h"
-#include "vec3.h"
-#include "volume.h"
+#include "geometry/vec3.h"
+#include "geometry/volume.h"
 
 #define BALL (4 * M_PI / 3) /* the unit ball */
 #define ULPS(n) ((n)*DBL_EPSILON)

@@ -7,10 +7,10 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_rng.h>
-#include "ball_cell.h"
+#include "geometry/ball_cell.h"
 #include "check.h"
-#include "volume.h"
-#include "voxels.h"
+#include "geometry/volume.h"
+#include "geometry/voxels.h"
 
 /* --- one ball, one cell ----------------------------------------------------
  */

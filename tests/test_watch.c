@@ -12,10 +12,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include "check.h"
-#include "motion.h"
+#include "dynamics/motion.h"
 #include "oracle.h"
-#include "stiffness.h"
-#include "travel.h"
+#include "steppers/stiffness.h"
+#include "model/travel.h"
 
 static double *numbers(size_t n) {
   double *x = calloc(n, sizeof *x);

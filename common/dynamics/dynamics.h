@@ -1,0 +1,95 @@
+/* Right-hand side of the equations of motion (2.13)-(2.15) as a gsl_odeiv2
+   system.
+
+   The state vector has one row a sphere, {x, y, z, vx, vy, vz} and, only where
+   the scene has friction and rotation, {wx, wy, wz}: 6n or 9n unknowns. Beds of
+   1024 spheres and more have their rows in the order of space. One
+   struct dynamics serves one integration at a time; the evaluation itself is
+   parallel with OpenMP and gives the same bits for any number of threads.
+   Tested in tests/test_dynamics.c. */
+#ifndef DYNAMICS_H
+#define DYNAMICS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include "model/bed.h"
+#include "model/scene.h"
+#include "steppers/stage.h"
+
+struct dynamics;
+
+struct dynamics_options {
+  bool all_pairs; /* visit every pair twice, as the paper does; a baseline */
+  int threads;    /* at least 1 */
+};
+
+struct dynamics_counts {
+  size_t evaluations, builds; /* of the right-hand side, of the pair list */
+  size_t contacts;            /* in the list now: pairs and walls */
+};
+
+/* Prepares a scene and its spheres; keeps no pointer to either. NULL if there
+   is no memory, no sphere, or a radius or mass is not positive. */
+struct dynamics *dynamics_alloc(const struct scene *s, const struct bed *b,
+                                const struct dynamics_options *o);
+void dynamics_free(struct dynamics *d);
+
+size_t dynamics_stride(const struct dynamics *d);    /* 6 or 9 */
+size_t dynamics_dimension(const struct dynamics *d); /* stride * n */
+struct dynamics_counts dynamics_counts(const struct dynamics *d);
+const char *dynamics_kernel(const struct dynamics *d); /* instruction set */
+
+/* Between a bed and a state vector of dynamics_dimension doubles. unpack
+   leaves the spins of a bed without rotation as they are. */
+void dynamics_pack(const struct dynamics *d, const struct bed *b, double y[]);
+void dynamics_unpack(const struct dynamics *d, const double y[], struct bed *b);
+
+/* dydt = f(y), for gsl_odeiv2_system with params a struct dynamics. Returns
+   GSL_SUCCESS, GSL_EBADFUNC where the result is not finite, GSL_ENOMEM. */
+int dynamics_rhs(double t, const double y[], double dydt[], void *params);
+
+/* The same within a stage of a method, in one pass over the memory. Not for all
+   pairs. */
+stage_function dynamics_stage;
+
+/* df/dy, dense, row by row, dimension^2 doubles; dfdt is 0. Errors as above. */
+int dynamics_jacobian(double t, const double y[], double *dfdy, double dfdt[],
+                      void *params);
+
+/* Longest step (s) in which no sphere moves further than travel (m), were it
+   to keep the acceleration it has in dydt. GSL_POSINF where nothing moves. */
+double dynamics_step_limit(const struct dynamics *d, const double y[],
+                           const double dydt[], double travel);
+
+/* What errors of the unknowns are measured in: gaps in 1/kappa, velocities in
+   m/s, spins in m/s of the surface. dimension doubles. */
+void dynamics_scale(const struct dynamics *d, double scale[]);
+
+/* Kinetic energy with that of spin, and potential energy of gravity (from the
+   origin) and contacts, (J). The latter may rebuild the pair list. */
+double dynamics_kinetic(const struct dynamics *d, const double y[]);
+double dynamics_potential(struct dynamics *d, const double y[]);
+
+/* What the contacts of a state say. */
+struct dynamics_survey {
+  double gravity;  /* J, from the origin */
+  double stored;   /* J in contacts, each F/kappa */
+  size_t contacts; /* within lmax */
+  /* Deepest overlap of any contact, in radii of the smaller sphere (a wall has
+     none), and a sphere that has it; 0 where none overlap. */
+  double overlap;
+  size_t sphere;
+  /* Least distance of a listed centre from its wall, negative outside (m), the
+     sphere and the wall; GSL_POSINF where no sphere is near a wall. */
+  double inside;
+  size_t outsider, wall;
+};
+
+/* May rebuild the pair list. GSL_SUCCESS, or an error as of dynamics_rhs. */
+int dynamics_survey(struct dynamics *d, const double y[],
+                    struct dynamics_survey *s);
+
+/* Largest speed of any sphere's surface, |v| or r |w| (m/s). */
+double dynamics_fastest(const struct dynamics *d, const double y[]);
+
+#endif

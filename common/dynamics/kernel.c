@@ -1,0 +1,446 @@
+/* Compiled once per instruction set with KERNEL_ISA set to its name. Flags
+   that matter here: no errno and no traps from sqrt, so that loops vectorise;
+   NaN and infinity are kept, since they tell of a step too long. */
+#include "dynamics/kernel.h"
+
+#include <math.h>
+#include <string.h>
+
+#ifndef KERNEL_ISA
+#define KERNEL_ISA native
+#endif
+#define JOIN_(a, b) a##b
+#define JOIN(a, b) JOIN_(a, b)
+#define TEXT_(a) #a
+#define TEXT(a) TEXT_(a)
+
+#if defined __x86_64__ && defined __GNUC__ && !defined __clang__
+/* glibc's libmvec has vector variants; math.h declares them only under
+   -ffast-math. */
+#pragma omp declare simd notinbranch
+double exp(double);
+#endif
+
+#define INLINE static inline __attribute__((always_inline))
+
+/* Contacts go through the law in blocks that stay in the first-level cache:
+   gather into columns, evaluate, add to the spheres' rows. */
+enum { BLOCK = 64, LANES = 8 };
+
+struct block {
+  double nx[BLOCK], ny[BLOCK], nz[BLOCK]; /* unit normal to the sphere */
+  double gap[BLOCK];
+  double vx[BLOCK], vy[BLOCK], vz[BLOCK]; /* velocity less the other's */
+  double sx[BLOCK], sy[BLOCK], sz[BLOCK]; /* sum of radius * spin */
+  double fx[BLOCK], fy[BLOCK], fz[BLOCK]; /* force */
+  double tx[BLOCK], ty[BLOCK], tz[BLOCK]; /* n x friction force */
+};
+
+/* Where registers hold four doubles. */
+#ifdef __AVX2__
+enum { WIDE = 1 };
+#else
+enum { WIDE = 0 };
+#endif
+
+/* Rows of four doubles are turned into columns and back four at a time: loads
+   and shuffles, no gather instructions, which cost more on today's machines. */
+typedef double vec4 __attribute__((vector_size(32)));
+
+INLINE vec4 vec4_load(const double *p) {
+  vec4 v;
+  memcpy(&v, p, sizeof v);
+  return v;
+}
+
+INLINE void vec4_store(vec4 v, double *p) {
+  memcpy(p, &v, sizeof v);
+}
+
+INLINE void transpose(vec4 r[4]) {
+  const vec4 a = __builtin_shufflevector(r[0], r[1], 0, 4, 2, 6);
+  const vec4 b = __builtin_shufflevector(r[0], r[1], 1, 5, 3, 7);
+  const vec4 c = __builtin_shufflevector(r[2], r[3], 0, 4, 2, 6);
+  const vec4 d = __builtin_shufflevector(r[2], r[3], 1, 5, 3, 7);
+  r[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5);
+  r[1] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
+  r[2] = __builtin_shufflevector(a, c, 2, 3, 6, 7);
+  r[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
+}
+
+/* One pair's differences of positions and velocities and its sum of r w. */
+INLINE void load_pair(const struct kernel_data *k, const double *y, size_t i,
+                      size_t j, size_t c, struct block *b,
+                      const struct kernel_features has) {
+  const size_t stride = has.rotation ? 9 : 6;
+  const double *p = y + i * stride, *q = y + j * stride;
+  const double ri = has.uniform ? 1 : k->radius[i],
+               rj = has.uniform ? 1 : k->radius[j];
+  b->nx[c] = p[0] - q[0];
+  b->ny[c] = p[1] - q[1];
+  b->nz[c] = p[2] - q[2];
+  b->vx[c] = p[3] - q[3];
+  b->vy[c] = p[4] - q[4];
+  b->vz[c] = p[5] - q[5];
+  if (has.rotation) {
+    b->sx[c] = ri * p[6] + rj * q[6];
+    b->sy[c] = ri * p[7] + rj * q[7];
+    b->sz[c] = ri * p[8] + rj * q[8];
+  }
+  if (!has.uniform)
+    b->gap[c] = -(ri + rj);
+}
+
+/* The same for four pairs of equal spheres. */
+INLINE void load_four(const double *y, const uint32_t *i, const uint32_t *j,
+                      size_t c, struct block *b,
+                      const struct kernel_features has) {
+  const size_t stride = has.rotation ? 9 : 6;
+  const vec4 plus = {-1, -1, 1, 1}; /* velocities less, spins and */
+  vec4 u[4], w[4];
+  for (int l = 0; l < 4; l++) {
+    const double *p = y + i[l] * stride;
+    const double *q = y + j[l] * stride;
+    u[l] = vec4_load(p) - vec4_load(q);
+    if (has.rotation) {
+      w[l] = vec4_load(p + 4) + plus * vec4_load(q + 4);
+      b->sz[c + l] = p[8] + q[8];
+    } else {
+      w[l] = vec4_load(p + 2) - vec4_load(q + 2);
+    }
+  }
+  transpose(u);
+  transpose(w);
+  vec4_store(u[0], b->nx + c);
+  vec4_store(u[1], b->ny + c);
+  vec4_store(u[2], b->nz + c);
+  vec4_store(u[3], b->vx + c);
+  vec4_store(w[has.rotation ? 0 : 2], b->vy + c);
+  vec4_store(w[has.rotation ? 1 : 3], b->vz + c);
+  if (has.rotation) {
+    vec4_store(w[2], b->sx + c);
+    vec4_store(w[3], b->sy + c);
+  }
+}
+
+/* (2.2): separation vectors, relative velocities and spins of pairs. */
+INLINE void load_pairs(const struct kernel_data *k, const double *y,
+                       const uint32_t *i, const uint32_t *j, size_t count,
+                       struct block *b, const struct kernel_features has) {
+  size_t c = 0;
+  if (WIDE && has.uniform)
+    for (; c + 4 <= count; c += 4)
+      load_four(y, i + c, j + c, c, b, has);
+  for (; c < count; c++)
+    load_pair(k, y, i[c], j[c], c, b, has);
+}
+
+/* Distances and normals of pairs, in place of separation vectors. */
+INLINE void normalise(const struct kernel_data *k, size_t count,
+                      struct block *b, const struct kernel_features has) {
+  const double r = k->radius[0];
+#pragma omp simd
+  for (size_t l = 0; l < count; l++) {
+    const double d =
+        sqrt(b->nx[l] * b->nx[l] + b->ny[l] * b->ny[l] + b->nz[l] * b->nz[l]);
+    const double inverse = 1 / d;
+    b->gap[l] = d + (has.uniform ? -2 * r : b->gap[l]);
+    b->nx[l] *= inverse;
+    b->ny[l] *= inverse;
+    b->nz[l] *= inverse;
+    if (has.rotation && has.uniform) {
+      b->sx[l] *= r;
+      b->sy[l] *= r;
+      b->sz[l] *= r;
+    }
+  }
+}
+
+/* A wall is a body at rest with the normal -n_k, (2.5) and (2.10). */
+INLINE void load_walls(const struct kernel_data *k, const double *y,
+                       size_t from, size_t count, struct block *b,
+                       const struct kernel_features has) {
+  const size_t stride = has.rotation ? 9 : 6;
+  for (size_t c = 0; c < count; c++) {
+    const size_t i = k->wall_sphere[from + c];
+    const struct wall *w = &k->walls[k->wall_id[from + c]];
+    const double *p = y + i * stride;
+    const double r = k->radius[i];
+    b->nx[c] = -w->normal[0];
+    b->ny[c] = -w->normal[1];
+    b->nz[c] = -w->normal[2];
+    b->gap[c] = wall_distance(w, p) - r;
+    b->vx[c] = p[3];
+    b->vy[c] = p[4];
+    b->vz[c] = p[5];
+    if (has.rotation) {
+      b->sx[c] = r * p[6];
+      b->sy[c] = r * p[7];
+      b->sz[c] = r * p[8];
+    }
+  }
+}
+
+/* Fills a block up to whole vectors with idle contacts, so that a contact is
+   computed the same way, to the last bit, wherever it stands in a block. */
+INLINE size_t pad(struct block *b, size_t count) {
+  const size_t padded = (count + LANES - 1) / LANES * LANES;
+  for (; count < padded; count++) {
+    b->nx[count] = 1;
+    b->ny[count] = b->nz[count] = b->gap[count] = 0;
+    b->vx[count] = b->vy[count] = b->vz[count] = 0;
+    b->sx[count] = b->sy[count] = b->sz[count] = 0;
+  }
+  return padded;
+}
+
+/* The law: contact.h, written for columns. */
+INLINE void evaluate(const struct contact_law *law, size_t count,
+                     struct block *b, const struct kernel_features has) {
+  const double f0 = law->f0, kappa = law->kappa, lmax = law->lmax;
+  const double e2 = law->restitution * law->restitution;
+  const double psi2 = 2 * law->psi;
+  const double vmin = law->vmin, inverse_vmin = 1 / vmin;
+  const double phi = law->friction;
+#pragma omp simd
+  for (size_t c = 0; c < count; c++) {
+    const double nx = b->nx[c], ny = b->ny[c], nz = b->nz[c];
+    const double vx = b->vx[c], vy = b->vy[c], vz = b->vz[c];
+    const double rate = vx * nx + vy * ny + vz * nz;
+    const double in_reach = f0 * exp(-kappa * b->gap[c]);
+    const double f = b->gap[c] > lmax ? 0 : in_reach;
+    const double normal =
+        has.elastic ? f : f * (e2 + (1 - e2) / (1 + exp(psi2 * rate)));
+    double fx = normal * nx, fy = normal * ny, fz = normal * nz;
+    if (has.friction) {
+      double tx = vx - rate * nx, ty = vy - rate * ny, tz = vz - rate * nz;
+      if (has.rotation) {
+        const double sx = b->sx[c], sy = b->sy[c], sz = b->sz[c];
+        tx -= sy * nz - sz * ny;
+        ty -= sz * nx - sx * nz;
+        tz -= sx * ny - sy * nx;
+      }
+      const double t = sqrt(tx * tx + ty * ty + tz * tz);
+      const double s = t * inverse_vmin;
+      const double slip =
+          t < vmin ? (3 - 2 * s) * s * inverse_vmin : 1 / (t < vmin ? vmin : t);
+      const double g = -phi * f * slip;
+      tx *= g;
+      ty *= g;
+      tz *= g;
+      fx += tx;
+      fy += ty;
+      fz += tz;
+      if (has.rotation) {
+        b->tx[c] = ny * tz - nz * ty;
+        b->ty[c] = nz * tx - nx * tz;
+        b->tz[c] = nx * ty - ny * tx;
+      }
+    }
+    b->fx[c] = fx;
+    b->fy[c] = fy;
+    b->fz[c] = fz;
+  }
+}
+
+/* Four contacts' results as rows. */
+INLINE void unload_four(const struct block *b, size_t c, vec4 f[4], vec4 t[4],
+                        const struct kernel_features has) {
+  if (WIDE) {
+    f[0] = vec4_load(b->fx + c);
+    f[1] = vec4_load(b->fy + c);
+    f[2] = vec4_load(b->fz + c);
+    f[3] = (vec4){0};
+    transpose(f);
+    if (has.rotation) {
+      t[0] = vec4_load(b->tx + c);
+      t[1] = vec4_load(b->ty + c);
+      t[2] = vec4_load(b->tz + c);
+      t[3] = (vec4){0};
+      transpose(t);
+    }
+    return;
+  }
+  for (int l = 0; l < 4; l++, c++) {
+    f[l] = (vec4){b->fx[c], b->fy[c], b->fz[c], 0};
+    if (has.rotation)
+      t[l] = (vec4){b->tx[c], b->ty[c], b->tz[c], 0};
+  }
+}
+
+INLINE double *sum_of(const struct kernel_part *part, size_t i) {
+  return part->sums + (i & part->mask) * KERNEL_SUM;
+}
+
+INLINE bool within(const struct kernel_part *part, size_t i) {
+  return i >= part->from && i < part->to;
+}
+
+/* As second partner the force is reversed, the torque is not. The first
+   partner's sum stays in registers over its run of pairs. */
+INLINE void scatter_pairs(const struct block *b, const uint32_t *i,
+                          const uint32_t *j, size_t count,
+                          const struct kernel_part *part,
+                          const struct kernel_features has) {
+  size_t owner = i[0];
+  double *sum = sum_of(part, owner);
+  bool ours = within(part, owner);
+  vec4 own_f = {0}, own_t = {0};
+  if (ours) {
+    own_f = vec4_load(sum);
+    own_t = vec4_load(sum + 4);
+  }
+  for (size_t c = 0; c < count; c += 4) {
+    vec4 f[4], t[4];
+    unload_four(b, c, f, t, has);
+    for (size_t l = 0; l < 4 && c + l < count; l++) {
+      if (i[c + l] != owner) {
+        if (ours) {
+          vec4_store(own_f, sum);
+          if (has.rotation)
+            vec4_store(own_t, sum + 4);
+        }
+        owner = i[c + l];
+        sum = sum_of(part, owner);
+        ours = within(part, owner);
+        if (ours) {
+          own_f = vec4_load(sum);
+          own_t = vec4_load(sum + 4);
+        }
+      }
+      own_f += f[l];
+      if (has.rotation)
+        own_t += t[l];
+      if (within(part, j[c + l])) {
+        double *other = sum_of(part, j[c + l]);
+        vec4_store(vec4_load(other) - f[l], other);
+        if (has.rotation)
+          vec4_store(vec4_load(other + 4) + t[l], other + 4);
+      }
+    }
+  }
+  if (ours) {
+    vec4_store(own_f, sum);
+    if (has.rotation)
+      vec4_store(own_t, sum + 4);
+  }
+}
+
+INLINE void add_pairs(const struct kernel_data *k, const double *y,
+                      const uint32_t *i, const uint32_t *j, size_t count,
+                      const struct kernel_part *part,
+                      const struct kernel_features has) {
+  struct block b;
+  for (size_t from = 0; from < count; from += BLOCK) {
+    const size_t some = count - from < BLOCK ? count - from : BLOCK;
+    load_pairs(k, y, i + from, j + from, some, &b, has);
+    const size_t padded = pad(&b, some);
+    normalise(k, padded, &b, has);
+    evaluate(&k->law, padded, &b, has);
+    scatter_pairs(&b, i + from, j + from, some, part, has);
+  }
+}
+
+INLINE void add_walls(const struct kernel_data *k, const double *y, size_t from,
+                      size_t to, const struct kernel_part *part,
+                      const struct kernel_features has) {
+  struct block b;
+  const size_t end = k->wall_first[to];
+  for (size_t w = k->wall_first[from]; w < end; w += BLOCK) {
+    const size_t some = end - w < BLOCK ? end - w : BLOCK;
+    load_walls(k, y, w, some, &b, has);
+    evaluate(&k->law, pad(&b, some), &b, has);
+    for (size_t c = 0; c < some; c++) {
+      double *sum = sum_of(part, k->wall_sphere[w + c]);
+      sum[0] += b.fx[c];
+      sum[1] += b.fy[c];
+      sum[2] += b.fz[c];
+      if (has.rotation) {
+        sum[4] += b.tx[c];
+        sum[5] += b.ty[c];
+        sum[6] += b.tz[c];
+      }
+    }
+  }
+}
+
+/* (2.13)-(2.15): torque = -r n x f, I = 2 m r^2 / 5 */
+INLINE bool finish(const struct kernel_data *k, const double *y, double *rates,
+                   size_t from, size_t to, const struct kernel_part *part,
+                   const struct kernel_features has) {
+  const size_t stride = has.rotation ? 9 : 6;
+  double checksum = 0;
+  for (size_t i = from; i < to; i++) {
+    const double *state = y + i * stride;
+    double *rate = rates + (i - from) * stride, *sum = sum_of(part, i);
+    const double inverse_mass = 1 / k->mass[i];
+    for (int c = 0; c < 3; c++) {
+      rate[c] = state[3 + c];
+      rate[3 + c] = k->gravity[c] + inverse_mass * sum[c];
+      checksum += rate[c] + rate[3 + c];
+    }
+    if (has.rotation) {
+      const double scale = -2.5 * inverse_mass / k->radius[i];
+      for (int c = 0; c < 3; c++) {
+        rate[6 + c] = scale * sum[4 + c];
+        checksum += rate[6 + c] + 0 * state[6 + c]; /* free spins too */
+      }
+    }
+    for (int c = 0; c < KERNEL_SUM; c++)
+      sum[c] = 0;
+  }
+  return isfinite(checksum);
+}
+
+/* One specialised loop for each combination of features. */
+#define DISPATCH(call)                                                         \
+  do {                                                                         \
+    const struct kernel_features h = k->has;                                   \
+    if (h.rotation)                                                            \
+      DISPATCH_REST(call, true, true);                                         \
+    else if (h.friction)                                                       \
+      DISPATCH_REST(call, true, false);                                        \
+    else                                                                       \
+      DISPATCH_REST(call, false, false);                                       \
+  } while (0)
+#define DISPATCH_REST(call, friction, rotation)                                \
+  do {                                                                         \
+    if (h.elastic && h.uniform)                                                \
+      call(((struct kernel_features){friction, rotation, true, true}));        \
+    else if (h.elastic)                                                        \
+      call(((struct kernel_features){friction, rotation, true, false}));       \
+    else if (h.uniform)                                                        \
+      call(((struct kernel_features){friction, rotation, false, true}));       \
+    else                                                                       \
+      call(((struct kernel_features){friction, rotation, false, false}));      \
+  } while (0)
+
+static void add_pairs_any(const struct kernel_data *k, const double *y,
+                          const uint32_t *i, const uint32_t *j, size_t count,
+                          const struct kernel_part *part) {
+#define CALL(has) add_pairs(k, y, i, j, count, part, has)
+  DISPATCH(CALL);
+#undef CALL
+}
+
+static void add_walls_any(const struct kernel_data *k, const double *y,
+                          size_t from, size_t to,
+                          const struct kernel_part *part) {
+#define CALL(has) add_walls(k, y, from, to, part, has)
+  DISPATCH(CALL);
+#undef CALL
+}
+
+static bool finish_any(const struct kernel_data *k, const double *y,
+                       double *rates, size_t from, size_t to,
+                       const struct kernel_part *part) {
+  struct kernel_features has = {.rotation = true};
+  if (k->has.rotation)
+    return finish(k, y, rates, from, to, part, has);
+  has.rotation = false;
+  return finish(k, y, rates, from, to, part, has);
+}
+
+extern const struct kernel JOIN(kernel_, KERNEL_ISA);
+const struct kernel JOIN(kernel_, KERNEL_ISA) = {
+    TEXT(KERNEL_ISA), add_pairs_any, add_walls_any, finish_any};

@@ -1,0 +1,83 @@
+#include "dynamics/motion.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <gsl/gsl_errno.h>
+
+static int rhs(double t, const double y[], double dydt[], void *params) {
+  return dynamics_rhs(t, y, dydt, ((struct motion *)params)->dynamics);
+}
+
+static int stage(double t, const double y[], const struct stage *s,
+                 double out[], void *params) {
+  return dynamics_stage(t, y, s, out, ((struct motion *)params)->dynamics);
+}
+
+static int jacobian(double t, const double y[], double *dfdy, double dfdt[],
+                    void *params) {
+  return dynamics_jacobian(t, y, dfdy, dfdt,
+                           ((struct motion *)params)->dynamics);
+}
+
+static double step_limit(const double y[], const double dydt[], void *params) {
+  const struct motion *m = params;
+  return dynamics_step_limit(m->dynamics, y, dydt, m->travel);
+}
+
+int motion_start(struct motion *m, const struct scene *s, const struct bed *b,
+                 const struct integrate_options *o,
+                 const struct dynamics_options *d, double travel) {
+  *m = (struct motion){.dynamics = dynamics_alloc(s, b, d), .travel = travel};
+  if (!m->dynamics)
+    return GSL_EINVAL;
+  const size_t dim = dynamics_dimension(m->dynamics);
+  double *y = malloc(2 * dim * sizeof *y), *scale = y + dim;
+  int status = GSL_ENOMEM;
+  if (y) {
+    dynamics_pack(m->dynamics, b, y);
+    dynamics_scale(m->dynamics, scale);
+    status = integrate_alloc(&m->integrator, o,
+                             &(struct integrate_problem){
+                                 .system = {.function = rhs,
+                                            .jacobian = jacobian,
+                                            .dimension = dim,
+                                            .params = m},
+                                 .scale = scale,
+                                 .row = dynamics_stride(m->dynamics),
+                                 .positions = 3,
+                                 .step_limit = travel > 0 ? step_limit : NULL,
+                                 .stage = d->all_pairs ? NULL : stage},
+                             b->t, y);
+  }
+  free(y);
+  if (status != GSL_SUCCESS)
+    motion_free(m);
+  return status;
+}
+
+int motion_start_over_floor(struct motion *m, const struct scene *s,
+                            double radius, const double x[3], const double v[3],
+                            const struct integrate_options *o, double travel) {
+  struct scene floored = *s;
+  struct bed bed = {0};
+  int status =
+      scene_add_wall(&floored, (double[]){0, 0, 0}, (double[]){0, 0, -1});
+  if (status == GSL_SUCCESS)
+    status = bed_alloc(&bed, 1);
+  if (status == GSL_SUCCESS) {
+    bed.r[0] = radius;
+    memcpy(bed.x, x, 3 * sizeof *x);
+    memcpy(bed.v, v, 3 * sizeof *v);
+    status = motion_start(m, &floored, &bed, o,
+                          &(struct dynamics_options){.threads = 1}, travel);
+  }
+  bed_free(&bed);
+  scene_free(&floored);
+  return status;
+}
+
+void motion_free(struct motion *m) {
+  integrate_free(m->integrator);
+  dynamics_free(m->dynamics);
+  *m = (struct motion){0};
+}

@@ -1,0 +1,30 @@
+/* Spheres in motion: a scene's right-hand side and an integrator put together.
+   Not in the paper. One motion per thread. Tested in
+   tests/test_closed_forms.c. */
+#ifndef MOTION_H
+#define MOTION_H
+
+#include "dynamics/dynamics.h"
+#include "steppers/integrate.h"
+
+struct motion {
+  struct dynamics *dynamics;
+  struct integrator *integrator;
+  double travel; /* m, the furthest that a sphere may go in a step; 0: any */
+};
+
+/* Starts at b->t with b's state; keeps no pointer to the arguments, but the
+   integrator points to *m, which must stay where it is. GSL_SUCCESS,
+   GSL_EINVAL for options that do not fit together or a bed that dynamics_alloc
+   refuses, GSL_ENOMEM. */
+int motion_start(struct motion *m, const struct scene *s, const struct bed *b,
+                 const struct integrate_options *o,
+                 const struct dynamics_options *d, double travel);
+/* The same for one sphere of unit mass over the floor z = 0, at time 0 and in
+   one thread; the scene is to have no walls of its own. */
+int motion_start_over_floor(struct motion *m, const struct scene *s,
+                            double radius, const double x[3], const double v[3],
+                            const struct integrate_options *o, double travel);
+void motion_free(struct motion *m);
+
+#endif

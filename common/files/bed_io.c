@@ -1,0 +1,108 @@
+#define _POSIX_C_SOURCE 200809L
+#include "files/bed_io.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <gsl/gsl_errno.h>
+
+/* Header */
+
+int bed_header_add(struct bed_header *h, const char *name, const char *value) {
+  if (h->count == h->size) {
+    const size_t size = 2 * h->size + 16;
+    struct bed_key *at = realloc(h->at, size * sizeof *at);
+    if (!at)
+      return GSL_ENOMEM;
+    h->at = at;
+    h->size = size;
+  }
+  struct bed_key key = {strdup(name), strdup(value)};
+  if (!key.name || !key.value) {
+    free(key.name);
+    free(key.value);
+    return GSL_ENOMEM;
+  }
+  h->at[h->count++] = key;
+  return GSL_SUCCESS;
+}
+
+static struct bed_key *find_key(const struct bed_header *h, const char *name) {
+  for (size_t k = 0; k < h->count; k++)
+    if (!strcmp(h->at[k].name, name))
+      return &h->at[k];
+  return NULL;
+}
+
+int bed_header_set(struct bed_header *h, const char *name, const char *value) {
+  struct bed_key *key = find_key(h, name);
+  if (!key)
+    return bed_header_add(h, name, value);
+  char *copy = strdup(value);
+  if (!copy)
+    return GSL_ENOMEM;
+  free(key->value);
+  key->value = copy;
+  return GSL_SUCCESS;
+}
+
+const char *bed_header_get(const struct bed_header *h, const char *name) {
+  const struct bed_key *key = find_key(h, name);
+  return key ? key->value : NULL;
+}
+
+void bed_header_remove(struct bed_header *h, const char *name) {
+  size_t kept = 0;
+  for (size_t k = 0; k < h->count; k++) {
+    if (strcmp(h->at[k].name, name)) {
+      h->at[kept++] = h->at[k];
+      continue;
+    }
+    free(h->at[k].name);
+    free(h->at[k].value);
+  }
+  h->count = kept;
+}
+
+void bed_header_free(struct bed_header *h) {
+  for (size_t k = 0; k < h->count; k++) {
+    free(h->at[k].name);
+    free(h->at[k].value);
+  }
+  free(h->at);
+  *h = (struct bed_header){0};
+}
+
+/* Writer */
+
+enum { COLUMNS = 12, SPIN = 9 };
+
+static const char *const column_names[COLUMNS] = {
+    "id", "x", "y", "z", "r", "m", "vx", "vy", "vz", "wx", "wy", "wz"};
+
+void bed_write_frame(FILE *out, const struct bed_header *h, const struct bed *b,
+                     bool spin) {
+  for (size_t k = 0; k < h->count; k++)
+    if (strcmp(h->at[k].name, "t") && strcmp(h->at[k].name, "status"))
+      fprintf(out, "# %s=%s\n", h->at[k].name, h->at[k].value);
+  fprintf(out, "# t=%.17g\n", b->t);
+  const int columns = spin ? COLUMNS : SPIN;
+  for (int c = 0; c < columns; c++)
+    fprintf(out, c ? "\t%s" : "%s", column_names[c]);
+  fputc('\n', out);
+  for (size_t i = 0; i < b->n; i++) {
+    const double *x = b->x + 3 * i, *v = b->v + 3 * i, *w = b->w + 3 * i;
+    fprintf(out, "%ld\t%.17g\t%.17g\t%.17g\t%.17g\t%.17g\t%.17g\t%.17g\t%.17g",
+            b->id[i], x[0], x[1], x[2], b->r[i], b->m[i], v[0], v[1], v[2]);
+    if (spin)
+      fprintf(out, "\t%.17g\t%.17g\t%.17g", w[0], w[1], w[2]);
+    fputc('\n', out);
+  }
+}
+
+void bed_write_gap(FILE *out) {
+  fputs("\n\n", out);
+}
+
+void bed_write_status(FILE *out, const char *status) {
+  fprintf(out, "# status=%s\n", status);
+}

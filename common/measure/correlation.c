@@ -1,0 +1,81 @@
+#include "measure/correlation.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_math.h>
+#include "geometry/box.h"
+#include "geometry/neighbors.h"
+#include "geometry/vec3.h"
+#include "geometry/volume.h"
+
+static double edge(double rmax, size_t bins, size_t k) {
+  return rmax * (double)k / (double)bins;
+}
+
+static double ball(double r) {
+  return 4 * M_PI / 3 * gsl_pow_3(r);
+}
+
+static int count_pairs(size_t n, const double *x, double rmax, size_t bins,
+                       double *pairs) {
+  double *no_radius = calloc(n + 1, sizeof *no_radius);
+  if (!no_radius)
+    return GSL_ENOMEM;
+  struct neighbors near = {0};
+  const int status = neighbors_find(&near, n, x, 3, no_radius, rmax);
+  for (size_t p = 0; p < near.count; p++) {
+    double u[3];
+    vec3_sub(x + 3 * near.i[p], x + 3 * near.j[p], u);
+    const double at = vec3_norm(u) / rmax * (double)bins;
+    if (at < (double)bins)
+      pairs[(size_t)at]++;
+  }
+  neighbors_free(&near);
+  free(no_radius);
+  return status;
+}
+
+/* Adds the shells around one point: whole ones up to the nearest face, then
+   differences of clipped balls. whole[k]: points whose shell k is whole. */
+static void add_shells(const double x[3], const double box[6], double rmax,
+                       size_t bins, double *volume, double *whole) {
+  double nearest = GSL_POSINF;
+  for (int k = 0; k < 3; k++)
+    nearest =
+        GSL_MIN(nearest, GSL_MIN(x[k] - box[2 * k], box[2 * k + 1] - x[k]));
+  size_t k = 0;
+  for (; k < bins && edge(rmax, bins, k + 1) <= nearest; k++)
+    whole[k]++;
+  double inner = ball(edge(rmax, bins, k));
+  for (; k < bins; k++) {
+    const double outer = volume_ball_box(x, edge(rmax, bins, k + 1), box);
+    volume[k] += outer - inner;
+    inner = outer;
+  }
+}
+
+int correlation_count(size_t n, const double *x, const double box[6],
+                      double rmax, size_t bins, double *pairs,
+                      double *expected) {
+  double *count = calloc(3 * bins + 1, sizeof *count);
+  if (!count)
+    return GSL_ENOMEM;
+  double *volume = count + bins, *whole = volume + bins;
+  const int status = count_pairs(n, x, rmax, bins, count);
+  if (status != GSL_SUCCESS) {
+    free(count);
+    return status;
+  }
+  for (size_t i = 0; i < n; i++)
+    add_shells(x + 3 * i, box, rmax, bins, volume, whole);
+  const double density = n ? ((double)n - 1) / box_volume(box) : 0;
+  for (size_t k = 0; k < bins; k++) {
+    const double shell =
+        ball(edge(rmax, bins, k + 1)) - ball(edge(rmax, bins, k));
+    pairs[k] = count[k];
+    expected[k] = 0.5 * density * (volume[k] + whole[k] * shell);
+  }
+  free(count);
+  return GSL_SUCCESS;
+}

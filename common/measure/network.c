@@ -1,0 +1,211 @@
+#include "measure/network.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_math.h>
+#include "geometry/box.h"
+#include "geometry/neighbors.h"
+
+void network_free(struct network *w) {
+  free(w->at);
+  *w = (struct network){0};
+}
+
+/* The law: u, velocity of the sphere less that of the other body; spin, sum of
+   radius times angular velocity of both. */
+static void set_forces(struct network_contact *c, const struct scene *s,
+                       const double u[3], const double spin[3]) {
+  double t[3];
+  if (c->gap > s->law.lmax)
+    return;
+  const double rate = contact_tangent(c->n, u, spin, t);
+  c->normal = contact_normal(&s->law, c->gap, rate);
+  if (scene_has_friction(s))
+    contact_friction(&s->law, c->gap, t, c->friction);
+}
+
+static void set_pair(struct network_contact *c, const struct scene *s,
+                     const struct bed *b, size_t i, size_t j) {
+  double u[3], spin[3] = {0};
+  *c = (struct network_contact){.i = i, .j = j, .counts = true};
+  vec3_sub(b->x + 3 * i, b->x + 3 * j, c->n);
+  const double d = vec3_norm(c->n);
+  for (int k = 0; k < 3; k++)
+    c->n[k] /= d;
+  c->gap = d - b->r[i] - b->r[j];
+  vec3_sub(b->v + 3 * i, b->v + 3 * j, u);
+  if (scene_has_rotation(s)) {
+    vec3_axpy(b->r[i], b->w + 3 * i, spin);
+    vec3_axpy(b->r[j], b->w + 3 * j, spin);
+  }
+  set_forces(c, s, u, spin);
+}
+
+static void set_wall(struct network_contact *c, const struct scene *s,
+                     const struct bed *b, size_t i, size_t k, double gap) {
+  double spin[3] = {0};
+  *c = (struct network_contact){
+      .i = i, .j = k, .wall = true, .counts = true, .gap = gap};
+  vec3_axpy(-1, s->walls[k].normal, c->n);
+  if (scene_has_rotation(s))
+    vec3_axpy(b->r[i], b->w + 3 * i, spin);
+  set_forces(c, s, b->v + 3 * i, spin);
+}
+
+static double wall_gap(const struct scene *s, const struct bed *b, size_t i,
+                       size_t k) {
+  return wall_distance(&s->walls[k], b->x + 3 * i) - b->r[i];
+}
+
+static size_t count_walls(const struct scene *s, const struct bed *b,
+                          double reach) {
+  size_t count = 0;
+  for (size_t i = 0; i < b->n; i++)
+    for (size_t k = 0; k < s->walls_count; k++)
+      count += wall_gap(s, b, i, k) <= reach;
+  return count;
+}
+
+int network_find(struct network *w, const struct scene *s, const struct bed *b,
+                 double reach) {
+  struct neighbors near = {0};
+  network_free(w);
+  reach = GSL_MAX(reach, s->law.lmax);
+  const int status = neighbors_find(&near, b->n, b->x, 3, b->r, reach);
+  if (status != GSL_SUCCESS) {
+    neighbors_free(&near);
+    return status;
+  }
+  const size_t all = near.count + count_walls(s, b, reach);
+  w->at = malloc((all + 1) * sizeof *w->at);
+  if (!w->at) {
+    neighbors_free(&near);
+    return GSL_ENOMEM;
+  }
+  w->spheres = b->n;
+  w->walls = s->walls_count;
+  bool apart = true;
+  for (size_t p = 0; p < near.count; p++) {
+    struct network_contact *c = &w->at[w->count++];
+    set_pair(c, s, b, near.i[p], near.j[p]);
+    apart = apart && isfinite(c->n[0]); /* 0/0 where two centres are one */
+  }
+  neighbors_free(&near);
+  for (size_t i = 0; i < b->n; i++)
+    for (size_t k = 0; k < s->walls_count; k++) {
+      const double gap = wall_gap(s, b, i, k);
+      if (gap <= reach)
+        set_wall(&w->at[w->count++], s, b, i, k, gap);
+    }
+  if (!apart)
+    network_free(w);
+  return apart ? GSL_SUCCESS : GSL_EDOM;
+}
+
+void network_mark(struct network *w, double gap, double force) {
+  for (size_t p = 0; p < w->count; p++) {
+    struct network_contact *c = &w->at[p];
+    c->counts = force > 0 ? c->normal >= force : c->gap <= gap;
+  }
+}
+
+void network_point(const struct network_contact *c, const struct bed *b,
+                   double x[3]) {
+  memcpy(x, b->x + 3 * c->i, 3 * sizeof *x);
+  vec3_axpy(-(b->r[c->i] + c->gap / 2), c->n, x);
+}
+
+void network_degrees(const struct network *w, const bool *without,
+                     size_t *degree, size_t *with_spheres) {
+  memset(degree, 0, w->spheres * sizeof *degree);
+  memset(with_spheres, 0, w->spheres * sizeof *with_spheres);
+  for (size_t p = 0; p < w->count; p++) {
+    const struct network_contact *c = &w->at[p];
+    if (!c->counts ||
+        (without && (without[c->i] || (!c->wall && without[c->j]))))
+      continue;
+    degree[c->i]++;
+    if (c->wall)
+      continue;
+    degree[c->j]++;
+    with_spheres[c->i]++;
+    with_spheres[c->j]++;
+  }
+}
+
+size_t network_rattlers(const struct network *w, size_t least, bool *rattler) {
+  size_t *degree = malloc((2 * w->spheres + 1) * sizeof *degree);
+  if (!degree)
+    return SIZE_MAX;
+  memset(rattler, 0, w->spheres * sizeof *rattler);
+  size_t count = 0;
+  for (size_t before = SIZE_MAX; count != before;) {
+    before = count;
+    network_degrees(w, rattler, degree, degree + w->spheres);
+    for (size_t i = 0; i < w->spheres; i++)
+      if (!rattler[i] && degree[i] < least) {
+        rattler[i] = true;
+        count++;
+      }
+  }
+  free(degree);
+  return count;
+}
+
+void network_net_force(const struct network *w, const struct scene *s,
+                       const struct bed *b, double *force) {
+  for (size_t i = 0; i < b->n; i++)
+    for (int k = 0; k < 3; k++)
+      force[3 * i + k] = b->m[i] * s->gravity[k];
+  for (size_t p = 0; p < w->count; p++) {
+    const struct network_contact *c = &w->at[p];
+    vec3_axpy(c->normal, c->n, force + 3 * c->i);
+    vec3_axpy(1, c->friction, force + 3 * c->i);
+    if (c->wall)
+      continue;
+    vec3_axpy(-c->normal, c->n, force + 3 * c->j);
+    vec3_axpy(-1, c->friction, force + 3 * c->j);
+  }
+}
+
+void network_wall_load(const struct network *w, size_t k, double load[3]) {
+  load[0] = load[1] = load[2] = 0;
+  for (size_t p = 0; p < w->count; p++) {
+    const struct network_contact *c = &w->at[p];
+    if (!c->wall || c->j != k)
+      continue;
+    vec3_axpy(-c->normal, c->n, load);
+    vec3_axpy(-1, c->friction, load);
+  }
+}
+
+size_t network_fabric(const struct network *w, const struct bed *b,
+                      const double box[6], double fabric[6]) {
+  static const int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
+  size_t count = 0;
+  for (int k = 0; k < 6; k++)
+    fabric[k] = 0;
+  for (size_t p = 0; p < w->count; p++) {
+    const struct network_contact *c = &w->at[p];
+    double x[3];
+    network_point(c, b, x);
+    if (!c->counts || c->wall || (box && !box_holds(box, x)))
+      continue;
+    count++;
+    for (int k = 0; k < 6; k++)
+      fabric[k] += c->n[row[k]] * c->n[column[k]];
+  }
+  for (int k = 0; k < 6 && count; k++)
+    fabric[k] /= (double)count;
+  return count;
+}
+
+double network_anisotropy(const double fabric[6]) {
+  const double mean = (fabric[0] + fabric[1] + fabric[2]) / 3;
+  double sum = 0;
+  for (int k = 0; k < 3; k++)
+    sum += gsl_pow_2(fabric[k] - mean) + 2 * gsl_pow_2(fabric[k + 3]);
+  return sqrt(1.5 * sum);
+}

@@ -1,0 +1,50 @@
+/* The radius of a bed's geometry. In the model F0 and r are one parameter (pair
+   forces depend on F0 exp(2 kappa r) only) and spheres at rest overlap, so the
+   radius at which a bed is measured or handed on is a decision; not in the
+   paper. All spheres have one radius. x: 3n centres (m); walls are those of a
+   scene and may touch as spheres do. Safe in any thread. Tested in
+   tests/test_radius.c. */
+#ifndef RADIUS_H
+#define RADIUS_H
+
+#include <stdbool.h>
+#include "files/bed_io.h"
+#include "model/scene.h"
+
+/* Overlaps at a radius, in diameters; a wall's as a pair's. Touching counts. */
+struct radius_overlaps {
+  size_t count;
+  double largest, mean; /* 0 without any */
+};
+/* GSL_SUCCESS, GSL_EINVAL for numbers that are not finite, GSL_ENOMEM. */
+int radius_overlaps(const struct scene *s, size_t n, const double *x, double r,
+                    struct radius_overlaps *o);
+
+/* The largest radius at which nothing overlaps: half the least distance of two
+   centres, or the least from a wall. Returns as above; GSL_EDOM if there is no
+   such radius above 0 or nothing to touch. */
+int radius_touching(const struct scene *s, size_t n, const double *x,
+                    double *r);
+
+/* The radius at which the mean gap is 0 over the contacts: the pairs and walls
+   that overlap at `nominal`. Returns as radius_touching. */
+int radius_contact_mean(const struct scene *s, size_t n, const double *x,
+                        double nominal, double *r);
+
+/* The radius at which the spheres fill a fraction of the box, above 0: the
+   union of them (fraction below 1), or their sum. Returns as radius_touching,
+   GSL_EDOM if there is no such radius. */
+int radius_of_fraction(size_t n, const double *x, const double box[6],
+                       double fraction, bool sum, double *r);
+
+/* Gives a bed another radius and notes in its header's keys: radius; what the
+   dynamics had, radius_dynamics; and why, radius_keep. why NULL: the dynamics'
+   radius is back, and neither is needed. GSL_ENOMEM. */
+int radius_rewrite(struct bed *b, struct bed_header *h, double r,
+                   const char *why);
+
+/* The radius of the dynamics, if the bed was rewritten. 0: it was not;
+   negative: the key holds something else than a number above 0. */
+double radius_dynamics(const struct bed_header *h);
+
+#endif

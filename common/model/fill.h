@@ -1,0 +1,23 @@
+/* Initial states. */
+#ifndef FILL_H
+#define FILL_H
+
+#include <stddef.h>
+#include "model/bed.h"
+
+struct fill {
+  size_t count;
+  double radius;  /* m */
+  double base[2]; /* of the box (m) */
+  double drop;    /* height of the first layer's lower edge (m) */
+  double jitter;  /* largest displacement, in radii */
+  size_t seed;
+};
+
+/* The paper's start, Fig. 4.2a: layers of a square grid 2.5 radii apart, the
+   k-th (k = 1, 2, ...) at height drop + (k - 1/2) 2.5 r, each coordinate moved
+   by jitter r U[0,1). Returns GSL_EINVAL if not one sphere fits the base,
+   GSL_ENOMEM. */
+int fill_grid(const struct fill *f, struct bed *b);
+
+#endif

@@ -1,0 +1,84 @@
+#include "model/scene.h"
+
+#include <stdlib.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_math.h>
+
+struct scene scene_default(void) {
+  return (struct scene){.model = SCENE_ROTATION,
+                        .law = {.f0 = 10,
+                                .kappa = 150,
+                                .psi = 10,
+                                .restitution = 0.4,
+                                .friction = 0.2,
+                                .vmin = 0.01,
+                                .lmax = 0.1},
+                        .gravity = {0, 0, -9.81}};
+}
+
+bool scene_has_friction(const struct scene *s) {
+  return s->model != SCENE_BASIC && s->law.friction > 0;
+}
+
+bool scene_has_rotation(const struct scene *s) {
+  return s->model == SCENE_ROTATION && s->law.friction > 0;
+}
+
+int scene_add_wall(struct scene *s, const double point[3],
+                   const double normal[3]) {
+  const double length = vec3_norm(normal);
+  if (!(length > 0) || !gsl_finite(length) || !gsl_finite(vec3_norm(point)))
+    return GSL_EINVAL;
+  struct wall *walls =
+      realloc(s->walls, (s->walls_count + 1) * sizeof *s->walls);
+  if (!walls)
+    return GSL_ENOMEM;
+  s->walls = walls;
+  struct wall *w = &walls[s->walls_count++];
+  for (int k = 0; k < 3; k++) {
+    w->point[k] = point[k];
+    w->normal[k] = normal[k] / length;
+  }
+  return GSL_SUCCESS;
+}
+
+int scene_add_box(struct scene *s, double a, double b) {
+  const double wall[5][2][3] = {{{0, 0, 0}, {0, 0, -1}},
+                                {{0, 0, 0}, {-1, 0, 0}},
+                                {{a, 0, 0}, {1, 0, 0}},
+                                {{0, 0, 0}, {0, -1, 0}},
+                                {{0, b, 0}, {0, 1, 0}}};
+  for (int k = 0; k < 5; k++) {
+    const int status = scene_add_wall(s, wall[k][0], wall[k][1]);
+    if (status != GSL_SUCCESS)
+      return status;
+  }
+  return GSL_SUCCESS;
+}
+
+const char *scene_check(const struct scene *s) {
+  const struct contact_law *c = &s->law;
+  if (!(c->f0 > 0 && gsl_finite(c->f0)))
+    return "f0 must be positive";
+  if (!(c->kappa > 0 && gsl_finite(c->kappa)))
+    return "kappa must be positive";
+  if (!(c->psi > 0 && gsl_finite(c->psi)))
+    return "psi must be positive";
+  if (!(c->restitution >= 0 && c->restitution <= 1))
+    return "restitution must be between 0 and 1";
+  if (!(c->friction >= 0 && gsl_finite(c->friction)))
+    return "friction must not be negative";
+  if (!(c->vmin > 0 && gsl_finite(c->vmin)))
+    return "vmin must be positive";
+  if (!(c->lmax > 0 && gsl_finite(c->lmax)))
+    return "lmax must be positive";
+  if (!gsl_finite(vec3_norm(s->gravity)))
+    return "gravity must be finite";
+  return NULL;
+}
+
+void scene_free(struct scene *s) {
+  free(s->walls);
+  s->walls = NULL;
+  s->walls_count = 0;
+}

@@ -1,0 +1,56 @@
+/* What a scene has besides its spheres: the variant of the model, the contact
+   law's parameters, gravity and walls; and one check of it all. */
+#ifndef SCENE_H
+#define SCENE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include "model/contact.h"
+
+/* The paper's three variants (section 3). */
+enum scene_model { SCENE_BASIC, SCENE_FRICTION, SCENE_ROTATION };
+
+/* A plane; the spheres are on the side that the normal points away from. */
+struct wall {
+  double point[3];  /* any point on it (m) */
+  double normal[3]; /* outward, unit length */
+};
+
+struct scene {
+  enum scene_model model;
+  struct contact_law law;
+  double gravity[3]; /* m/s^2 */
+  size_t walls_count;
+  struct wall *walls;
+};
+
+/* The paper's Tab. 4.2 with the full model and no walls. */
+struct scene scene_default(void);
+
+/* Which forces and unknowns the scene needs, rather than which it names: with
+   phi = 0 there is no friction, and without friction nothing turns. */
+bool scene_has_friction(const struct scene *s);
+bool scene_has_rotation(const struct scene *s);
+
+/* Appends a wall; the normal is scaled to unit length. Returns GSL_EINVAL if
+   it has none or a number is not finite, GSL_ENOMEM. */
+int scene_add_wall(struct scene *s, const double point[3],
+                   const double normal[3]);
+
+/* Appends the floor z = 0 and four side walls of [0,a] x [0,b]; no lid. */
+int scene_add_box(struct scene *s, double a, double b);
+
+/* Distance of x from wall k's plane, positive inside (m). */
+static inline double wall_distance(const struct wall *w, const double x[3]) {
+  double d[3];
+  vec3_sub(w->point, x, d);
+  return vec3_dot(d, w->normal);
+}
+
+/* NULL if the parameters can be computed with, else what is wrong, a static
+   string. */
+const char *scene_check(const struct scene *s);
+
+void scene_free(struct scene *s);
+
+#endif

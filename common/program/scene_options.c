@@ -1,0 +1,59 @@
+#include "program/scene_options.h"
+
+#include <stdio.h>
+#include <string.h>
+#include "program/shared_options.h"
+
+const char *const scene_models[] = {[SCENE_BASIC] = "basic",
+                                    [SCENE_FRICTION] = "friction",
+                                    [SCENE_ROTATION] = "rotation",
+                                    NULL};
+
+struct scene_words scene_words_default(void) {
+  const struct scene s = scene_default();
+  return (struct scene_words){scene_models[s.model], {1, {-s.gravity[2]}}};
+}
+
+int scene_wall_option(const struct option_list *v, void *scene) {
+  return scene_add_wall(scene, v->at, v->at + 3);
+}
+
+const char *scene_finish(struct scene *s, const struct scene_words *w) {
+  const struct option_list *g = &w->gravity;
+  for (int m = 0; scene_models[m]; m++)
+    if (!strcmp(w->model, scene_models[m]))
+      s->model = (enum scene_model)m;
+  if (g->count != 1 && g->count != 3)
+    return "gravity: expected one number or three";
+  for (int k = 0; k < 3; k++)
+    s->gravity[k] = g->count == 3 ? g->at[k] : 0;
+  if (g->count == 1)
+    s->gravity[2] = -g->at[0];
+  return scene_check(s);
+}
+
+const char *header_options(const struct bed_header *h,
+                           struct option_spec *options,
+                           bool (*skip)(const struct option_spec *)) {
+  static _Thread_local char wrong[512];
+  for (size_t k = 0; k < h->count; k++) {
+    struct option_spec *o = option_find(options, h->at[k].name);
+    if (!o || !o->parameter || o->given || (skip && skip(o)))
+      continue;
+    const char *want = option_set(o, h->at[k].value);
+    if (!want)
+      continue;
+    snprintf(wrong, sizeof wrong, "%s=%.100s: expected %s", o->name,
+             h->at[k].value, want);
+    return wrong;
+  }
+  return NULL;
+}
+
+const char *scene_from_header(struct scene *s, const struct bed_header *h) {
+  *s = scene_default();
+  struct scene_words words = scene_words_default();
+  struct option_spec options[] = {SCENE_OPTIONS(*s, words), {0}};
+  const char *wrong = h ? header_options(h, options, NULL) : NULL;
+  return wrong ? wrong : scene_finish(s, &words);
+}

@@ -1,0 +1,43 @@
+/* A scene as options name it: from a command line (SCENE_OPTIONS in
+   shared_options.h) or from the keys of a bed's header. Tested in
+   tests/test_contacts.c and, through settle, in tests/test_cli.sh. */
+#ifndef SCENE_OPTIONS_H
+#define SCENE_OPTIONS_H
+
+#include "files/bed_io.h"
+#include "program/options.h"
+#include "model/scene.h"
+
+/* What options say of a scene in other words than struct scene. */
+struct scene_words {
+  const char *model;          /* one of scene_models */
+  struct option_list gravity; /* one number, downwards, or three */
+};
+
+/* basic, friction, rotation, as enum scene_model has them; then NULL. */
+extern const char *const scene_models[];
+
+/* The words for scene_default(). */
+struct scene_words scene_words_default(void);
+
+/* For option wall: appends {px, py, pz, nx, ny, nz} to a struct scene. */
+int scene_wall_option(const struct option_list *v, void *scene);
+
+/* Puts the words into the scene and checks it. NULL, or what is wrong, a
+   static string. */
+const char *scene_finish(struct scene *s, const struct scene_words *w);
+
+/* Sets every option that is a parameter and was not given on the command line
+   from the header's key of its name, but for those that skip, which may be
+   NULL, is true for. NULL, or "key=value: expected ...", in a static buffer of
+   the calling thread's. */
+const char *header_options(const struct bed_header *h,
+                           struct option_spec *options,
+                           bool (*skip)(const struct option_spec *));
+
+/* The scene of a bed: its header's keys over the defaults of
+   scene_default(), so no key is no wall. h may be NULL. The scene is to be
+   freed, also after an error. Returns NULL or what is wrong, as above. */
+const char *scene_from_header(struct scene *s, const struct bed_header *h);
+
+#endif

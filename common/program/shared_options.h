@@ -1,0 +1,68 @@
+/* Rows of option tables that programs share. */
+#ifndef SHARED_OPTIONS_H
+#define SHARED_OPTIONS_H
+
+#include <float.h>
+#include "steppers/integrate.h"
+#include "program/options.h"
+#include "program/scene_options.h"
+
+/* clang-format off */
+
+/* A number with a name, where it goes, and its range. */
+#define NUMBER(name_, value_, least_, most_, unit_, help_)                     \
+  {.name = name_, .type = OPTION_DOUBLE, .value = value_, .least = least_,     \
+   .most = most_, .unit = unit_, .help = help_, .parameter = true}
+#define POSITIVE(name_, value_, unit_, help_)                                  \
+  NUMBER(name_, value_, DBL_MIN, OPTION_MANY, unit_, help_)
+
+/* Integration, into a struct integrate_options o and the travel limit. */
+#define INTEGRATION_OPTIONS(o, travel)                                         \
+  {.name = "method", .type = OPTION_TEXT, .value = &(o).method,                \
+   .choices = integrate_methods, .help = "stepper", .parameter = true},        \
+  {.name = "control", .type = OPTION_TEXT, .value = &(o).control,              \
+   .choices = integrate_controls, .help = "step control",                      \
+   .unit = "by method: predictive for rkc, else paper", .parameter = true},    \
+  POSITIVE("tol", &(o).tol,                                                    \
+           "by control: paper 0.1 (m/s^2), else 5e-4 (m/s)", "tolerance"),    \
+  NUMBER("abstol", &(o).abstol, 0, OPTION_MANY, "m/s; 0: as --tol",            \
+         "absolute tolerance but for paper control"),                          \
+  NUMBER("reltol", &(o).reltol, 0, OPTION_MANY, "",                            \
+         "relative tolerance but for paper control"),                          \
+  POSITIVE("hinit", &(o).hinit, "s", "first trial step"),                      \
+  NUMBER("hmax", &(o).hmax, 0, OPTION_MANY, "s; 0: none", "longest step"),     \
+  NUMBER("step", &(o).step, 0, OPTION_MANY, "s; 0: adaptive", "fixed step"),   \
+  NUMBER("travel", &(travel), 0, OPTION_MANY, "in 1/kappa; 0: no limit",       \
+         "furthest a sphere may go in a step")
+
+/* The contact law, but for friction, into a struct contact_law c. */
+#define LAW_OPTIONS(c)                                                         \
+  NUMBER("restitution", &(c).restitution, 0, 1, "",                            \
+         "coefficient of restitution e"),                                      \
+  POSITIVE("f0", &(c).f0, "N", "repulsion at touch F0"),                       \
+  POSITIVE("kappa", &(c).kappa, "1/m", "stiffness exponent"),                  \
+  POSITIVE("psi", &(c).psi, "s/m", "dissipation focusing")
+
+/* A scene, into a struct scene s and a struct scene_words w; scene_finish
+   completes it. */
+#define SCENE_OPTIONS(s, w)                                                    \
+  {.name = "model", .type = OPTION_TEXT, .value = &(w).model,                  \
+   .choices = scene_models, .help = "variant", .parameter = true},             \
+  LAW_OPTIONS((s).law),                                                        \
+  NUMBER("friction", &(s).law.friction, 0, OPTION_MANY, "",                    \
+         "friction coefficient phi"),                                          \
+  POSITIVE("vmin", &(s).law.vmin, "m/s", "slip speed of full friction"),       \
+  POSITIVE("lmax", &(s).law.lmax, "m",                                         \
+           "gap beyond which contacts are skipped"),                           \
+  {.name = "gravity", .type = OPTION_LIST, .value = &(w).gravity,              \
+   .least = 1, .most = 3, .unit = "m/s^2, downwards, or gx,gy,gz",             \
+   .help = "gravity", .parameter = true},                                      \
+  {.name = "wall", .type = OPTION_LIST, .least = 6, .most = 6,                 \
+   .unit = "px,py,pz,nx,ny,nz with a normal of positive length",               \
+   .help = "plane by a point and outward normal, repeatable; replaces "        \
+           "the box",                                                          \
+   .parameter = true, .each = scene_wall_option, .context = &(s)}
+
+/* clang-format on */
+
+#endif

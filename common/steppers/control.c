@@ -1,0 +1,170 @@
+#include "steppers/control.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_math.h>
+#include "steppers/step_type.h"
+
+/* The paper's control */
+
+static const double smallest_step = 1e-9; /* s, the author's program */
+
+static void *alloc(void) {
+  return calloc(1, sizeof(double)); /* delta */
+}
+
+static int init(void *state, double delta, double eps_rel, double a_y,
+                double a_dydt) {
+  (void)eps_rel;
+  (void)a_y;
+  (void)a_dydt;
+  *(double *)state = delta;
+  return delta > 0 ? GSL_SUCCESS : GSL_EINVAL;
+}
+
+static int adjust(void *state, size_t dim, unsigned order, const double y[],
+                  const double yerr[], const double yp[], double *h) {
+  (void)order;
+  (void)y;
+  (void)yp;
+  const double delta = *(double *)state;
+  double error = 0;
+  for (size_t i = 0; i < dim; i++) {
+    const double e = fabs(yerr[i]);
+    if (!(e <= error) && !isnan(error)) /* a NaN comes in and stays */
+      error = e;
+  }
+  error *= 3 / *h;
+  const bool accepted = error < delta || *h < smallest_step;
+  const double factor = error == 0 ? 2 : 0.8 * pow(delta / error, 0.2);
+  *h *= isfinite(factor) && factor > 0 ? factor : 0.1;
+  if (!accepted)
+    return GSL_ODEIV_HADJ_DEC;
+  return factor > 1 ? GSL_ODEIV_HADJ_INC : GSL_ODEIV_HADJ_NIL;
+}
+
+static int error_level(void *state, const double y, const double dydt,
+                       const double h, const size_t i, double *level) {
+  (void)y;
+  (void)dydt;
+  (void)i;
+  *level = *(double *)state * fabs(h) / 3;
+  return GSL_SUCCESS;
+}
+
+static const gsl_odeiv2_control_type paper = {.name = "paper",
+                                              .alloc = alloc,
+                                              .init = init,
+                                              .hadjust = adjust,
+                                              .errlevel = error_level,
+                                              .set_driver = step_no_driver,
+                                              .free = free};
+
+gsl_odeiv2_control *control_paper_new(double delta) {
+  gsl_odeiv2_control *c = gsl_odeiv2_control_alloc(&paper);
+  if (c && gsl_odeiv2_control_init(c, delta, 0, 0, 0) != GSL_SUCCESS) {
+    gsl_odeiv2_control_free(c);
+    return NULL;
+  }
+  return c;
+}
+
+/* Predictive control */
+
+struct predictive {
+  double abstol, reltol;
+  double last_error, last_step; /* of the last accepted step; 0: none */
+  bool after_rejection;
+  size_t dim;
+  double *scale;
+};
+
+static void *predictive_alloc(void) {
+  return calloc(1, sizeof(struct predictive));
+}
+
+static void predictive_free(void *state) {
+  free(((struct predictive *)state)->scale);
+  free(state);
+}
+
+static int predictive_init(void *state, double abstol, double reltol,
+                           double a_y, double a_dydt) {
+  (void)a_y;
+  (void)a_dydt;
+  struct predictive *p = state;
+  p->abstol = abstol;
+  p->reltol = reltol;
+  return abstol >= 0 && reltol >= 0 && abstol + reltol > 0 ? GSL_SUCCESS
+                                                           : GSL_EINVAL;
+}
+
+static int predictive_adjust(void *state, size_t dim, unsigned order,
+                             const double y[], const double yerr[],
+                             const double yp[], double *h) {
+  (void)yp;
+  struct predictive *p = state;
+  double error = 0;
+  for (size_t i = 0; i < dim; i++) {
+    const double e =
+        fabs(yerr[i]) / (p->abstol * p->scale[i] + p->reltol * fabs(y[i]));
+    if (!(e <= error) && !isnan(error)) /* a NaN comes in and stays */
+      error = e;
+  }
+  const double power = 1. / (order + 1);
+  if (!(error <= 1)) {
+    p->after_rejection = true;
+    *h *= error < INFINITY ? GSL_MAX(0.1, 0.8 * pow(error, -power)) : 0.1;
+    return GSL_ODEIV_HADJ_DEC;
+  }
+  error = GSL_MAX(error, 1e-8);
+  double factor = 0.8 * pow(error, -power);
+  if (p->last_error > 0)
+    factor = GSL_MIN(factor, 0.8 * *h / p->last_step *
+                                 pow(p->last_error / (error * error), power));
+  factor = GSL_MIN(GSL_MAX(factor, 0.2), p->after_rejection ? 1 : 5);
+  p->after_rejection = false;
+  p->last_error = error;
+  p->last_step = *h;
+  *h *= factor;
+  return factor > 1 ? GSL_ODEIV_HADJ_INC : GSL_ODEIV_HADJ_NIL;
+}
+
+static int predictive_error_level(void *state, const double y,
+                                  const double dydt, const double h,
+                                  const size_t i, double *level) {
+  (void)dydt;
+  (void)h;
+  const struct predictive *p = state;
+  *level = p->abstol * p->scale[i] + p->reltol * fabs(y);
+  return GSL_SUCCESS;
+}
+
+static const gsl_odeiv2_control_type predictive = {.name = "predictive",
+                                                   .alloc = predictive_alloc,
+                                                   .init = predictive_init,
+                                                   .hadjust = predictive_adjust,
+                                                   .errlevel =
+                                                       predictive_error_level,
+                                                   .set_driver = step_no_driver,
+                                                   .free = predictive_free};
+
+gsl_odeiv2_control *control_predictive_new(double abstol, double reltol,
+                                           const double *scale, size_t dim) {
+  gsl_odeiv2_control *c = gsl_odeiv2_control_alloc(&predictive);
+  if (!c)
+    return NULL;
+  struct predictive *p = c->state;
+  p->dim = dim;
+  p->scale = malloc(dim * sizeof *scale);
+  if (!p->scale ||
+      gsl_odeiv2_control_init(c, abstol, reltol, 0, 0) != GSL_SUCCESS) {
+    gsl_odeiv2_control_free(c);
+    return NULL;
+  }
+  memcpy(p->scale, scale, dim * sizeof *scale);
+  return c;
+}

@@ -1,0 +1,271 @@
+#include "steppers/integrate.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_math.h>
+#include "steppers/control.h"
+#include "steppers/dopri5.h"
+#include "steppers/merson.h"
+#include "steppers/verlet.h"
+
+const char *const integrate_methods[] = {"merson", "dopri5", "rkf45",
+                                         "rkck",   "rk8pd",  "rkc",
+                                         "verlet", "msbdf",  NULL};
+const char *const integrate_controls[] = {"paper", "standard", "predictive",
+                                          NULL};
+
+struct integrator {
+  gsl_odeiv2_system system; /* first: the multistep methods point to it */
+  gsl_odeiv2_driver
+      driver; /* of GSL's struct, so that msbdf finds its control */
+  gsl_odeiv2_step *step;
+  gsl_odeiv2_control *control; /* NULL: fixed step */
+  gsl_odeiv2_evolve *evolve;
+  double (*step_limit)(const double y[], const double dydt[], void *params);
+  double hmax, fixed, stop;
+  double t, h, last_step;
+  struct integrate_counts counts;
+  /* The last step from start to y, for the interpolation; a failed attempt
+     overwrites what evolve has of it. */
+  double *start, *start_rate, *rate;
+  double y[];
+};
+
+void integrate_defaults(struct integrate_options *o) {
+  if (!o->control)
+    o->control = strcmp(o->method, "rkc") ? "paper" : "predictive";
+  if (o->tol == 0)
+    o->tol = strcmp(o->control, "paper") ? 5e-4 : 0.1;
+}
+
+const gsl_odeiv2_step_type *integrate_step_type(const char *method) {
+  const struct {
+    const char *name;
+    const gsl_odeiv2_step_type *type;
+  } methods[] = {{"merson", merson},
+                 {"dopri5", dopri5},
+                 {"rkf45", gsl_odeiv2_step_rkf45},
+                 {"rkck", gsl_odeiv2_step_rkck},
+                 {"rk8pd", gsl_odeiv2_step_rk8pd},
+                 {"rkc", rkc},
+                 {"verlet", verlet},
+                 {"msbdf", gsl_odeiv2_step_msbdf}};
+  for (size_t i = 0; i < sizeof methods / sizeof *methods; i++)
+    if (!strcmp(method, methods[i].name))
+      return methods[i].type;
+  return NULL;
+}
+
+static gsl_odeiv2_control *make_control(const struct integrate_options *o,
+                                        const double *scale, size_t dim) {
+  if (!strcmp(o->control, "paper"))
+    return control_paper_new(o->tol);
+  const double abstol = o->abstol > 0 ? o->abstol : o->tol;
+  if (!strcmp(o->control, "predictive"))
+    return control_predictive_new(abstol, o->reltol, scale, dim);
+  return gsl_odeiv2_control_scaled_new(abstol, o->reltol, 1, 0, scale, dim);
+}
+
+void integrate_free(struct integrator *it) {
+  if (!it)
+    return;
+  if (it->evolve)
+    gsl_odeiv2_evolve_free(it->evolve);
+  if (it->control)
+    gsl_odeiv2_control_free(it->control);
+  if (it->step)
+    gsl_odeiv2_step_free(it->step);
+  free(it);
+}
+
+static bool options_fit(const struct integrate_options *o,
+                        const struct integrate_problem *p,
+                        const gsl_odeiv2_step_type *type) {
+  const bool fixed = o->step > 0;
+  if (type == verlet)
+    return fixed && p->positions > 0 && 2 * p->positions <= p->row &&
+           p->system.dimension % p->row == 0;
+  if (type == gsl_odeiv2_step_msbdf && (fixed || !p->system.jacobian))
+    return false;
+  if (fixed)
+    return true;
+  bool known = false;
+  for (size_t i = 0; o->control && integrate_controls[i]; i++)
+    known = known || !strcmp(o->control, integrate_controls[i]);
+  return known && o->hinit > 0 && gsl_finite(o->hinit) && o->reltol >= 0 &&
+         (o->tol > 0 || (o->abstol > 0 && strcmp(o->control, "paper")));
+}
+
+int integrate_alloc(struct integrator **out, const struct integrate_options *o,
+                    const struct integrate_problem *problem, double t,
+                    const double y[]) {
+  const size_t dim = problem->system.dimension;
+  const gsl_odeiv2_step_type *type = integrate_step_type(o->method);
+  if (!type || !options_fit(o, problem, type))
+    return GSL_EINVAL;
+  struct integrator *it = calloc(1, sizeof *it + 4 * dim * sizeof *y);
+  if (!it)
+    return GSL_ENOMEM;
+  it->start = it->y + dim;
+  it->start_rate = it->start + dim;
+  it->rate = it->start_rate + dim;
+  it->system = problem->system;
+  it->step_limit = problem->step_limit;
+  it->hmax = o->hmax > 0 ? o->hmax : GSL_POSINF;
+  it->fixed = o->step;
+  it->stop = GSL_DBL_MAX;
+  it->t = t;
+  it->h = o->hinit;
+  memcpy(it->y, y, dim * sizeof *y);
+  it->step = gsl_odeiv2_step_alloc(type, dim);
+  it->evolve = gsl_odeiv2_evolve_alloc(dim);
+  if (!(o->step > 0)) /* msbdf asks for a tolerance whatever its step */
+    it->control = make_control(o, problem->scale, dim);
+  if (!it->step || !it->evolve || (!it->control && !(o->step > 0))) {
+    integrate_free(it);
+    return GSL_ENOMEM;
+  }
+  if (type == verlet)
+    verlet_set_layout(it->step, problem->row, problem->positions);
+  if (type == rkc)
+    rkc_set_stage(it->step, problem->stage);
+  it->driver = (gsl_odeiv2_driver){
+      .sys = &it->system, .s = it->step, .c = it->control, .e = it->evolve};
+  gsl_odeiv2_step_set_driver(it->step, &it->driver);
+  *out = it;
+  return GSL_SUCCESS;
+}
+
+/* One attempt at an accepted step of at most h; on failure time and state are
+   those before it. */
+static int attempt(struct integrator *it, double *h) {
+  gsl_odeiv2_evolve *e = it->evolve;
+  const double t = it->t;
+  const unsigned long failed = e->failed_steps;
+  /* not apply_fixed_step, which evaluates the start of every step anew */
+  int status = gsl_odeiv2_evolve_apply(e, it->control, it->step, &it->system,
+                                       &it->t, it->stop, h, it->y);
+  it->counts.rejected += e->failed_steps - failed;
+  /* evolve shortens a fixed step that fails, and takes steps too short to move
+     the time */
+  if (status == GSL_SUCCESS &&
+      (!(it->t > t) ||
+       (it->fixed > 0 && e->last_step != it->fixed && it->t != it->stop)))
+    status = GSL_FAILURE;
+  if (status != GSL_SUCCESS) {
+    memcpy(it->y, e->y0, it->system.dimension * sizeof *it->y);
+    it->t = t;
+    /* what evolve would take for the derivative may be half written */
+    gsl_odeiv2_evolve_reset(e);
+    gsl_odeiv2_step_reset(it->step);
+  }
+  return status;
+}
+
+/* The step to try first. */
+static int first_trial(struct integrator *it, double *h) {
+  gsl_odeiv2_evolve *e = it->evolve;
+  *h = it->fixed > 0 ? it->fixed : GSL_MIN(it->h, it->hmax);
+  if (!it->step_limit || it->fixed > 0)
+    return GSL_SUCCESS;
+  if (e->count == 0) { /* evolve has not evaluated it yet */
+    const int status =
+        GSL_ODEIV_FN_EVAL(&it->system, it->t, it->y, e->dydt_out);
+    if (status != GSL_SUCCESS)
+      return status;
+  }
+  *h = GSL_MIN(*h, it->step_limit(it->y, e->dydt_out, it->system.params));
+  return GSL_SUCCESS;
+}
+
+int integrate_stop(struct integrator *it, double t) {
+  if (!(t > it->t))
+    return GSL_EINVAL;
+  it->stop = t;
+  return GSL_SUCCESS;
+}
+
+int integrate_step(struct integrator *it) {
+  const gsl_odeiv2_evolve *e = it->evolve;
+  const size_t bytes = it->system.dimension * sizeof *it->y;
+  const double start = it->t;
+  if (start == it->stop)
+    return GSL_EDOM;
+  /* Below this a step no longer moves t. */
+  const double smallest = 4 * GSL_DBL_EPSILON * GSL_MAX(fabs(start), 1e-3);
+  double h;
+  int status = first_trial(it, &h);
+  if (status == GSL_SUCCESS) {
+    status = attempt(it, &h);
+    while (status == GSL_EBADFUNC && !(it->fixed > 0) && h > smallest) {
+      it->counts.rejected++;
+      h /= 4;
+      status = attempt(it, &h);
+    }
+  }
+  if (status != GSL_SUCCESS)
+    return status == GSL_EBADFUNC ? GSL_FAILURE : status;
+  it->counts.accepted++;
+  it->last_step = it->t - start;
+  it->h = h;
+  memcpy(it->start, e->y0, bytes);
+  memcpy(it->start_rate, e->dydt_in, bytes);
+  memcpy(it->rate, e->dydt_out, bytes);
+  return GSL_SUCCESS;
+}
+
+double integrate_time(const struct integrator *it) {
+  return it->t;
+}
+
+const double *integrate_state(const struct integrator *it) {
+  return it->y;
+}
+
+double integrate_last_step(const struct integrator *it) {
+  return it->last_step;
+}
+
+struct integrate_counts integrate_counts(const struct integrator *it) {
+  return it->counts;
+}
+
+const double *integrate_derivative(const struct integrator *it) {
+  return it->rate;
+}
+
+int integrate_limits(const char *method, struct stiffness_limits *l) {
+  const gsl_odeiv2_step_type *type = integrate_step_type(method);
+  if (!type || type == rkc || type == gsl_odeiv2_step_msbdf)
+    return GSL_EINVAL;
+  if (type != verlet)
+    return stiffness_limits(type, l);
+  for (size_t k = 0; k < STIFFNESS_RAYS; k++)
+    l->at[k] = 2;
+  return GSL_SUCCESS;
+}
+
+struct rkc_report integrate_rkc_report(const struct integrator *it) {
+  return it->step->type == rkc ? rkc_report(it->step) : (struct rkc_report){0};
+}
+
+int integrate_at(const struct integrator *it, double t, double y[]) {
+  const size_t dim = it->system.dimension;
+  const double h = it->last_step;
+  if (t == it->t) {
+    memcpy(y, it->y, dim * sizeof *y);
+    return GSL_SUCCESS;
+  }
+  const double s = (t - (it->t - h)) / h;
+  if (!(h > 0 && s >= -1e-9 && s <= 1 + 1e-9))
+    return GSL_EDOM;
+  /* Hermite basis: 1 - w and w for values, p and q for slopes */
+  const double w = s * s * (3 - 2 * s);
+  const double p = h * s * (1 - s) * (1 - s), q = -h * s * s * (1 - s);
+  for (size_t i = 0; i < dim; i++)
+    y[i] = it->start[i] + w * (it->y[i] - it->start[i]) +
+           p * it->start_rate[i] + q * it->rate[i];
+  return GSL_SUCCESS;
+}

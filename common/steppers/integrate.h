@@ -1,0 +1,94 @@
+/* A free-running integration: stepper and step control by name, one accepted
+   step at a time, outputs interpolated between steps so that asking for more
+   of them changes no trajectory. Tested in tests/test_integrate.c. */
+#ifndef INTEGRATE_H
+#define INTEGRATE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <gsl/gsl_odeiv2.h>
+#include "steppers/rkc.h"
+#include "steppers/stage.h"
+#include "steppers/stiffness.h"
+
+/* Names of methods and controls, NULL-terminated. */
+extern const char *const integrate_methods[];
+extern const char *const integrate_controls[];
+
+/* The step type of that name, or NULL; for work on the steppers themselves. */
+const gsl_odeiv2_step_type *integrate_step_type(const char *method);
+
+struct integrate_options {
+  const char *method;
+  const char *control;   /* NULL: by method; unused where step > 0 */
+  double tol;            /* paper: delta; else abstol where that is 0;
+                            0: by control */
+  double abstol, reltol; /* standard control, per unknown's scale */
+  double hinit;          /* first trial step (s) */
+  double hmax;           /* longest step (s), 0: none */
+  double step;           /* fixed step (s), 0: adaptive */
+};
+
+/* Sets what is left to the method: rkc has predictive control with tol 5e-4,
+   others the paper's with delta = 0.1. */
+void integrate_defaults(struct integrate_options *o);
+
+struct integrate_problem {
+  gsl_odeiv2_system system;
+  /* What standard control measures each unknown's error in: dimension. */
+  const double *scale;
+  /* Rows of unknowns, each beginning with so many positions, for methods that
+     tell them from velocities. */
+  size_t row, positions;
+  /* Longest step allowed at a state with the given derivative, or NULL. */
+  double (*step_limit)(const double y[], const double dydt[], void *params);
+  /* The right-hand side within a stage, for methods that make use of it, or
+     NULL. */
+  stage_function *stage;
+};
+
+struct integrate_counts {
+  size_t accepted, rejected;
+};
+
+struct integrator;
+
+/* A copy of y at time t is the start. Returns GSL_SUCCESS, GSL_EINVAL for an
+   unknown name or options that do not fit together (a method without error
+   estimate needs a fixed step), GSL_ENOMEM. problem->system must outlive the
+   integrator. */
+int integrate_alloc(struct integrator **it, const struct integrate_options *o,
+                    const struct integrate_problem *problem, double t,
+                    const double y[]);
+void integrate_free(struct integrator *it);
+
+/* One accepted step. GSL_SUCCESS, or an error after which time and state are
+   those before the step: GSL_FAILURE when no step is short enough for the
+   control or a right-hand side that is not finite. */
+int integrate_step(struct integrator *it);
+
+/* Makes the step that would pass t > integrate_time end there instead, so that
+   the state at t is the method's own and not an interpolation; steps after it
+   give GSL_EDOM until there is a new stop. GSL_EINVAL for an earlier t. */
+int integrate_stop(struct integrator *it, double t);
+
+double integrate_time(const struct integrator *it);
+const double *integrate_state(const struct integrator *it);
+double integrate_last_step(const struct integrator *it);
+struct integrate_counts integrate_counts(const struct integrator *it);
+/* Derivative at the end of the last step. */
+const double *integrate_derivative(const struct integrator *it);
+
+/* Largest h |lambda| that a method takes without growth, by the angle of lambda
+   (stiffness.h); verlet's is 2, for undamped oscillation and for friction.
+   GSL_SUCCESS, GSL_EINVAL for methods that adapt to stiffness, GSL_ENOMEM. */
+int integrate_limits(const char *method, struct stiffness_limits *l);
+
+/* What rkc has found so far, all 0 for other methods. */
+struct rkc_report integrate_rkc_report(const struct integrator *it);
+
+/* State at a time within the last step, by a cubic Hermite polynomial. Before
+   the first step the start is all there is. GSL_EDOM outside. */
+int integrate_at(const struct integrator *it, double t, double y[]);
+
+#endif

@@ -1,0 +1,271 @@
+#include "steppers/rkc.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_math.h>
+#include "platform/multiversion.h"
+#include "steppers/step_type.h"
+
+/* Damping keeps |R(z)| below 1 - epsilon/3 in the interior of the interval;
+   the value is the authors'. */
+static const double damping = 2. / 13;
+
+/* The estimate grows towards the spectral radius from below. */
+static const double safety = 1.2;
+
+/* Two iterations that differ by less end the search. Contacts that form can
+   make the radius several times larger within a step; a step that was too long
+   for it is rejected. */
+static const double agreement = 0.1;
+
+/* More stages than this gain nothing on a shorter step and let rounding
+   grow. */
+enum { MOST_STAGES = 400 };
+
+/* Power iterations at most when nothing is known and when something is, and
+   how many steps an estimate serves unless one is rejected. */
+enum { FIRST_ITERATIONS = 50, NEXT_ITERATIONS = 8, ESTIMATE_SERVES = 4 };
+
+struct state {
+  bool known;            /* there is an estimate and a direction */
+  double radius;         /* spectral radius */
+  size_t steps;          /* since it was estimated */
+  stage_function *stage; /* of the system, or NULL */
+  double last_start;     /* of the last attempt, to know a second one by */
+  struct rkc_report report;
+  size_t dim;
+  double work[]; /* direction, y at the start, two stages, slopes: 6 dim */
+};
+
+static void *alloc(size_t dim) {
+  struct state *s = calloc(1, sizeof *s + 6 * dim * sizeof(double));
+  if (s) {
+    s->dim = dim;
+    s->last_start = GSL_NAN;
+  }
+  return s;
+}
+
+/* Vectors of large systems are shared, a chunk at a time, among the threads
+   that OpenMP is set to. */
+enum { CHUNK = 8192, WORTH_SHARING = 8 * CHUNK };
+
+/* As a system without a stage function does it; f is scratch. */
+static int stage_by_parts(double t, const double y[], const struct stage *s,
+                          double out[], const gsl_odeiv2_system *sys,
+                          double *f) {
+  const size_t dim = sys->dimension;
+  const int status = GSL_ODEIV_FN_EVAL(sys, t, y, f);
+  if (status != GSL_SUCCESS)
+    return status;
+#pragma omp parallel for schedule(static) if (dim >= WORTH_SHARING)
+  for (size_t c = 0; c < dim; c += CHUNK)
+    stage_combine(s, c, GSL_MIN(CHUNK, dim - c), y, f + c, out);
+  return GSL_SUCCESS;
+}
+
+MULTIVERSION
+static void euler(size_t dim, double h, const double *restrict y,
+                  const double *restrict f, double *restrict out) {
+#pragma omp simd
+  for (size_t i = 0; i < dim; i++)
+    out[i] = y[i] + h * f[i];
+}
+
+MULTIVERSION
+static double norm(size_t dim, const double *x) {
+  double sum = 0;
+#pragma omp simd reduction(+ : sum)
+  for (size_t i = 0; i < dim; i++)
+    sum += x[i] * x[i];
+  return sqrt(sum);
+}
+
+/* One iteration: direction <- (f(y + small direction) - f(y)) / small; its
+   length is the estimate. */
+static int power_iterate(struct state *s, double t, const double *y,
+                         const double *f, const gsl_odeiv2_system *sys,
+                         double *radius) {
+  const size_t dim = s->dim;
+  double *direction = s->work, *trial = direction + dim, *slope = trial + dim;
+  const double length = norm(dim, direction);
+  const double small = sqrt(GSL_DBL_EPSILON) * GSL_MAX(norm(dim, y), 1e-3);
+  euler(dim, small / length, y, direction, trial);
+  const int status = GSL_ODEIV_FN_EVAL(sys, t, trial, slope);
+  s->report.power_evaluations++;
+  if (status != GSL_SUCCESS)
+    return status;
+  for (size_t i = 0; i < dim; i++)
+    direction[i] = slope[i] - f[i];
+  *radius = norm(dim, direction) / small;
+  if (!(*radius > 0)) /* f does not change along it: try another */
+    for (size_t i = 0; i < dim; i++)
+      direction[i] = i % 2 ? 1 : -1;
+  return GSL_SUCCESS;
+}
+
+static int estimate_radius(struct state *s, double t, const double *y,
+                           const double *f, const gsl_odeiv2_system *sys) {
+  size_t most = NEXT_ITERATIONS;
+  if (!s->known) {
+    most = FIRST_ITERATIONS;
+    memcpy(s->work, f, s->dim * sizeof *f);
+    if (!(norm(s->dim, f) > 0))
+      for (size_t i = 0; i < s->dim; i++)
+        s->work[i] = i % 2 ? 1 : -1;
+    s->radius = 0;
+  }
+  double last = s->radius / safety, radius = 0;
+  for (size_t k = 0; k < most; k++) {
+    const int status = power_iterate(s, t, y, f, sys, &radius);
+    if (status != GSL_SUCCESS)
+      return status;
+    if ((last > 0 || k) && fabs(radius - last) <= agreement * radius)
+      break;
+    last = radius;
+  }
+  s->radius = s->report.spectral_radius = safety * radius;
+  s->steps = 0;
+  s->known = true;
+  return GSL_SUCCESS;
+}
+
+double rkc_reach(size_t stages) {
+  const double s = (double)stages;
+  const double w0 = 1 + damping / (s * s);
+  /* T_s, T_s', T_s'' at w0 by the recurrence */
+  double t0 = 1, t1 = w0, d0 = 0, d1 = 1, e0 = 0, e1 = 0;
+  for (size_t j = 2; j <= stages; j++) {
+    const double t = 2 * w0 * t1 - t0;
+    const double d = 2 * w0 * d1 - d0 + 2 * t1;
+    const double e = 2 * w0 * e1 - e0 + 4 * d1;
+    t0 = t1, t1 = t;
+    d0 = d1, d1 = d;
+    e0 = e1, e1 = e;
+  }
+  return (w0 + 1) * e1 / d1;
+}
+
+static size_t stages_for(double z) {
+  size_t stages = (size_t)GSL_MAX(2, floor(sqrt(1 + 1.54 * z)));
+  while (rkc_reach(stages) < z)
+    stages++;
+  return stages;
+}
+
+static int apply(void *vstate, size_t dim, double t, double h, double y[],
+                 double yerr[], const double dydt_in[], double dydt_out[],
+                 const gsl_odeiv2_system *sys) {
+  struct state *s = vstate;
+  double *start = s->work + 3 * dim, *stage = start + dim,
+         *f = s->work + 2 * dim, *f0 = stage + dim;
+  int status = GSL_SUCCESS;
+  memcpy(start, y, dim * sizeof *y);
+  if (dydt_in)
+    memcpy(f0, dydt_in, dim * sizeof *f0);
+  else
+    status = GSL_ODEIV_FN_EVAL(sys, t, y, f0);
+  const bool rejected = t == s->last_start;
+  if (status == GSL_SUCCESS &&
+      (!s->known || rejected || ++s->steps > ESTIMATE_SERVES))
+    status = estimate_radius(s, t, y, f0, sys);
+  s->last_start = t;
+  if (status != GSL_SUCCESS)
+    return status;
+  if (!(fabs(h) * s->radius <= rkc_reach(MOST_STAGES)))
+    return GSL_FAILURE; /* evolve halves the step */
+  const size_t stages = stages_for(fabs(h) * s->radius);
+  s->report.stages = stages;
+  s->report.most_stages = GSL_MAX(s->report.most_stages, stages);
+
+  const double sd = (double)stages;
+  const double w0 = 1 + damping / (sd * sd);
+  const double w1 = (w0 + 1) / rkc_reach(stages);
+  /* b_j = T_j''/(T_j')^2 and the polynomials of the last two stages */
+  double t0 = 1, t1 = w0, d0 = 0, d1 = 1, e0 = 0, e1 = 0;
+  double b1 = 1 / (4 * w0 * w0), b0 = b1; /* b_0 = b_1 = b_2 */
+  double time1 = w1 * b1, time0 = 0;
+  double *before = stage, *now = y; /* swap at each stage */
+  memcpy(before, start, dim * sizeof *start);
+  euler(dim, h * w1 * b1, start, f0, now);
+  for (size_t j = 2; j <= stages; j++) {
+    const double a1 = 1 - b1 * t1; /* of the stage before */
+    const double tj = 2 * w0 * t1 - t0;
+    const double dj = 2 * w0 * d1 - d0 + 2 * t1;
+    const double ej = 2 * w0 * e1 - e0 + 4 * d1;
+    t0 = t1, t1 = tj;
+    d0 = d1, d1 = dj;
+    e0 = e1, e1 = ej;
+    const double b = ej / (dj * dj);
+    const double mu = 2 * b * w0 / b1, nu = -b / b0;
+    const double m = 2 * b * w1 / b1, g = -a1 * m;
+    const struct stage next = {.start = start,
+                               .rate = f0,
+                               .of_start = 1 - mu - nu,
+                               .of_rate = h * g,
+                               .of_y = mu,
+                               .of_out = nu,
+                               .of_f = h * m};
+    status = s->stage
+                 ? s->stage(t + h * time1, now, &next, before, sys->params)
+                 : stage_by_parts(t + h * time1, now, &next, before, sys, f);
+    if (status != GSL_SUCCESS)
+      break;
+    double *swap = before;
+    before = now;
+    now = swap;
+    const double time = mu * time1 + nu * time0 + m + g;
+    time0 = time1, time1 = time;
+    b0 = b1, b1 = b;
+  }
+  if (status == GSL_SUCCESS && now != y)
+    memcpy(y, now, dim * sizeof *y);
+  double *end = dydt_out ? dydt_out : f;
+  if (status == GSL_SUCCESS)
+    status = GSL_ODEIV_FN_EVAL(sys, t + h, y, end);
+  if (status != GSL_SUCCESS) {
+    memcpy(y, start, dim * sizeof *y);
+    s->known = false; /* the next attempt looks afresh */
+    return status;
+  }
+#pragma omp parallel for schedule(static) if (dim >= WORTH_SHARING)
+  for (size_t i = 0; i < dim; i++)
+    yerr[i] = 0.8 * (start[i] - y[i]) + 0.4 * h * (f0[i] + end[i]);
+  return GSL_SUCCESS;
+}
+
+static int reset(void *state, size_t dim) {
+  (void)dim;
+  struct state *s = state;
+  s->known = false;
+  s->last_start = GSL_NAN;
+  return GSL_SUCCESS;
+}
+
+static unsigned order(void *state) {
+  (void)state;
+  return 2;
+}
+
+static const gsl_odeiv2_step_type type = {.name = "rkc",
+                                          .can_use_dydt_in = 1,
+                                          .gives_exact_dydt_out = 1,
+                                          .alloc = alloc,
+                                          .apply = apply,
+                                          .set_driver = step_no_driver,
+                                          .reset = reset,
+                                          .order = order,
+                                          .free = free};
+
+const gsl_odeiv2_step_type *const rkc = &type;
+
+struct rkc_report rkc_report(const gsl_odeiv2_step *s) {
+  return ((const struct state *)s->state)->report;
+}
+
+void rkc_set_stage(gsl_odeiv2_step *s, stage_function *stage) {
+  ((struct state *)s->state)->stage = stage;
+}

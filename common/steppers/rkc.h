@@ -1,0 +1,38 @@
+/* Runge-Kutta-Chebyshev of order 2 with a variable number of stages, for
+   stiff systems whose fast modes are damped: B. P. Sommeijer, L. F. Shampine,
+   J. G. Verwer, J. Comput. Appl. Math. 88 (1998) 315. s stages reach about
+   0.65 s^2 on the negative real axis, so that a step costs as the square root
+   of its stiffness. Not in the paper.
+
+   The stage number of each step follows from an estimate of the spectral
+   radius of df/dy by nonlinear power iteration, which begins along f and goes
+   on from the vector it had. A fast mode that f has no part of and nothing
+   couples to is not found; step control then shortens the steps. Tested in
+   tests/test_rkc.c. */
+#ifndef RKC_H
+#define RKC_H
+
+#include <gsl/gsl_odeiv2.h>
+#include "steppers/stage.h"
+
+extern const gsl_odeiv2_step_type *const rkc;
+
+/* What a stepper of this type has found so far. */
+struct rkc_report {
+  double spectral_radius;   /* estimate in use (1/s) */
+  size_t stages;            /* of the last step */
+  size_t most_stages;       /* of any step */
+  size_t power_evaluations; /* spent on the spectral radius */
+};
+struct rkc_report rkc_report(const gsl_odeiv2_step *s);
+
+/* Lets a step call a system's own stage function instead of its right-hand
+   side followed by a sum over vectors; NULL, the default, does not. The two
+   differ by rounding. */
+void rkc_set_stage(gsl_odeiv2_step *s, stage_function *stage);
+
+/* The method's coefficients for s >= 2 stages and the step's largest stable
+   h * spectral radius on the negative real axis. */
+double rkc_reach(size_t stages);
+
+#endif
