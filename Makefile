@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # make help lists the targets.
 SHELL := /bin/bash
 .SHELLFLAGS := -o pipefail -c

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* analyze: measures beds of spheres. The first argument may name a verb. */
 #include <string.h>
 #include "verbs.h"

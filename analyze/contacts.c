@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* contacts: how spheres touch: coordination, rattlers, overlaps, fabric, what
    floor and walls carry; or the distributions and the network itself. */
 #include <stdint.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* draw: one frame as shaded balls in their box, by gnuplot. */
 #include <math.h>
 #include <stdlib.h>

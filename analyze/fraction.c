@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* fraction: share of boxes that the spheres fill, as the sum of the clipped
    spheres (the paper's count) and as their union. Exact; --sampled adds the
    paper's count on midpoints. */

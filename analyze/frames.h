@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What every verb does with its operand: read frames until the end. */
 #ifndef FRAMES_H
 #define FRAMES_H

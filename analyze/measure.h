@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What verbs that measure a frame share. */
 #ifndef MEASURE_H
 #define MEASURE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* movie: all frames as an animation of one view and one scale of colours. A
    GIF is put together by gnuplot, any other kind by ffmpeg. */
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* order: bond-orientational order of the spheres, and which lattice they
    resemble. */
 #include <stdio.h>

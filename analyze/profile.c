@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* profile: solid fraction of planes across an axis, or of shells at a distance
    from side walls or from the axis of a cylinder; exact areas, as a sum and as
    a union. Rows are at the middles of equal parts, so that the mean of a column

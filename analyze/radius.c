@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* radius: rewrites a bed with another radius of the geometry, or reports what
    each choice makes of the fractions and overlaps. */
 #include <math.h>

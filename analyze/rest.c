@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* rest: how near a bed is to rest: energies, unbalanced force, speeds, and
    settle's criterion. */
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The verbs of analyze: each a filter in a file of its own, VERB.c, with a
    function verb_VERB. argv[0] is the verb, the rest its options and operand;
    returns the program's exit status. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What binary formats share: byte order and the frame of VTK's XML. */
 #include <string.h>
 #include "program/version.h"

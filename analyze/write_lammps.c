@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* LAMMPS: a text dump, which read_dump and rerun take, and a data file of atom
    style sphere, which read_data takes. */
 #include <gsl/gsl_math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Binary STL: each sphere a closed surface of equal facets' number, the
    geodesic subdivision of an icosahedron. Spheres that overlap are written
    whole, surfaces that pass through each other; single precision, as STL has

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Bare positions, and a table with a row of names and a column of times. */
 #include "writers.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Voxel grids: VTK XML ImageData, or the bare numbers, x fastest. Some rows at
    a time, so that memory does not grow with the grid. */
 #define _POSIX_C_SOURCE 200809L

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Extended XYZ, as OVITO and ASE read it. */
 #include "writers.h"
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Benchmarks: never part of the tests, since machines are shared. Every speed
 # stands beside the fraction it was had at. One file a run under build/bench, so
 # a stopped make goes on where it was; `make bench-clean` begins anew.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # A tab-separated table with a line of names as Markdown. Later blocks repeat
 # the names; they are left out.
 BEGIN { FS = "\t" }

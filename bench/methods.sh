@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Means over seeds of DIR/VARIANT-METHOD-SEED.{stats,tsv}: costs, fraction with
 # its standard error, and the factor in CPU time to the paper's way (every pair
 # twice) with Merson's method.

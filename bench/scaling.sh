@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Cost per sphere and evaluation, and memory, from 200 to 100,000 spheres at the
 # same depth: a settled bed of 200 is laid out side by side and goes on for some
 # 0.05 s while the seams close. One thread, rkc, the least of three runs taken

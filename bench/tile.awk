@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Lays out -v a= by -v b= copies of a settled bed in the unit box as one bed in a
 # box of a by b metres.
 BEGIN { FS = "\t" }

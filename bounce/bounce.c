@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* bounce: one sphere dropped on a plane, two unknowns: height of its lowest
    point above the plane, and velocity. */
 #include <math.h>

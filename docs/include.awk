@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Puts what stands in docs/NAME.md between a page's lines
 #   <!-- docs/NAME.md --> ... <!-- end -->
 # so that a caption is written once, beside its figure: awk -f docs/include.awk

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Pages with captions in them: each is written once, in docs/NAME.md beside its
 # figure docs/NAME.png.
 readme: ## put the figures' captions into README.md and docs/

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Figures and tables of what the programs measure beyond the paper. Data as in
 # figures.mk: one file a run under build/data, so that a stopped make goes on
 # where it was.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Draws one frame of a bed as shaded balls in their box. The caller sets
 #   bed, frame                a file and which of its frames, counted from 0
 #   left, right, low, high    the part of the picture to fill (screen units)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The spheres of a bed in their box, coloured by their order at the start,
 # which fills its layers from the bottom.
 #   gnuplot -c plots/bed.gp BED OUT [FRAME]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Fraction of the bed against the CPU time it took, by method: a fast run with a
 # wrong bed shows as such. One panel a variant.
 #   gnuplot -c plots/bench.gp IN OUT

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Two ensembles side by side: DIR NAME:FOLDER NAME:FOLDER. Mean fraction at the
 # end with its standard error, evaluations and CPU seconds of all runs.
 set -eu

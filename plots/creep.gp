@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Speed of a sphere that friction holds on a slope, as share of vmin, beside the
 # closed form 3 s^2 - 2 s^3 = T/(phi F) and the limit that counts as rest. Bars: extremes over half a second.
 #   gnuplot -c plots/creep.gp IN OUT

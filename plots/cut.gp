@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Upper panel: error of the gap after a collision by tolerance, for several
 # lmax, and the floors by the formula. Lower panel: error of the speed by cost
 # for several tapers.

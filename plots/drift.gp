@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Error of the energy over time, one curve a method at equal cost. Upper panel:
 # a bouncing sphere at its apexes; lower: a closed box, the largest error of
 # each stretch.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Fig. 4.1: height of a bouncing sphere against time, one curve per file.
 #   gnuplot -c plots/fig4.1.gp IN1 IN2 IN3 OUT [TITLE1 TITLE2 TITLE3]
 # IN: output of bounce, columns t and z.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Fig. 4.2: the spheres at the start and settled by the three variants, their
 # last frames drawn to one scale.
 #   gnuplot -c plots/fig4.2.gp START BASIC FRICTION ROTATION OUT

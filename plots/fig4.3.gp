@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Fig. 4.3: solids volume fraction in the unit cube against time: mean (line)
 # and range (band) over the seeds, one block of the file for each variant.
 #   gnuplot -c plots/fig4.3.gp IN OUT

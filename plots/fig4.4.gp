@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Fig. 4.4: accepted time steps against time for the three model variants.
 #   gnuplot -c plots/fig4.4.gp BASIC FRICTION ROTATION OUT
 # IN: log of settle, one row for each accepted step, columns t and steps.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Fig. 4.5: speed-up (above) and parallel efficiency (below) against cores,
 # one block of the file for each curve, a method with a number of spheres.
 #   gnuplot -c plots/fig4.5.gp IN OUT

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The paper's figures and tables. A figure is two rules: data by a program with
 # its exact arguments, and a picture by gnuplot. Data are under build/data, one
 # file a run, so that a stopped make goes on where it was; charts and tables

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # One block of the means of several files of analyze gr: pairs and expected
 # pairs are added up.
 #   awk -v variant=NAME -f gr.awk FILE...

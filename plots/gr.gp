@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Pair correlation of the spheres' centres, one block of the file a variant.
 #   gnuplot -c plots/gr.gp IN OUT
 # IN: columns variant, r, g.

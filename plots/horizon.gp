@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # How far runs of the same start are from a sharp one over time: the time for
 # which a trajectory is determined. A panel a variant.
 #   gnuplot -c plots/horizon.gp IN OUT

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Fraction over time and residual motion, from pairs of files NAME.tsv
 # (analyze of nine frames) and NAME.log (settle --log), NAME = ...-KAPPA.
 set -eu

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Map of outcomes: what became of beds, by tolerance or step and stiffness, a
 # panel a variant and method. A cell has the outcome's colour and letter.
 #   gnuplot -c plots/map.gp IN OUT

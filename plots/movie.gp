@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Pictures of one size as an animated GIF.
 #   gnuplot -c plots/movie.gp DIRECTORY COUNT DELAY OUT
 # The pictures are DIRECTORY/0.png, 1.png ..., 640 x 480 pixels; each stands for

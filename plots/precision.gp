@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Work-precision or convergence chart with two logarithmic axes, one block of
 # the file for each method. A run that failed is a cross on the edge of the
 # chart where its error would be too large.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Mean, least and largest sum fraction at each time over the files of several
 # seeds, written by analyze. -v variant=NAME labels the block.
 FNR == 1 { row = 0; next }

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Stability regions |R(z)| <= 1 of the methods, and the limits measured on
 # contacts as points on the axes. Upper panel: pairs; lower: rkc.
 #   gnuplot -c plots/regions.gp REGIONS LIMITS OUT

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Cost per sphere and evaluation against the number of spheres.
 #   gnuplot -c plots/scaling.gp IN OUT
 # IN: columns spheres, ns_per_sphere_and_evaluation.

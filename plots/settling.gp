@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Error of the fraction of settled beds against CPU time, by method and
 # tolerance: of the mean over seeds, of single beds with friction, and of the
 # mean without. A whisker that goes through the floor of its panel is of an error

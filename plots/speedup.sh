@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Wall time of the full model by threads, 200 and 400 spheres: the first
 # simulated second (the busiest), mean of three runs taken in turns. Cores of a
 # shared machine may be halves of one, so the last column is what as many

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # How the spheres of the frictionless bed and of the full model's touch and are
 # arranged: ten beds of each.
 STRUCTURES := basic rotation

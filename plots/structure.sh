@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Markdown table: means over the beds of each variant, with standard errors, of
 # what analyze contacts and analyze order say.
 #   B=build plots/structure.sh DIRECTORY VARIANT...   DIRECTORY/VARIANT-SEED.bed

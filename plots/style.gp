@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Shared style and argument checks of the figures:
 #   columns = "NAME..."       the columns that every IN must have
 #   call "style.gp" "USAGE" OUT IN...

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Costs by variant and method, from pairs of files NAME.tsv (analyze) and
 # NAME.stats (settle --stats), NAME = variant-method.
 set -eu

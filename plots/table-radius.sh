@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Means over the seeds of `analyze radius --report`, with the standard error of
 # the union: plots/table-radius.sh DIRECTORY MODEL... reads DIRECTORY/MODEL-*.tsv
 set -eu

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Table 4.1: rebound times beside the paper's and the hard-contact limit, and
 # the remark that F0 hardly matters. Two methods bound the integration's error.
 set -eu

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Shots out of free flight, no cap on travel: share of those at a sphere that
 # are missed, and of those at a wall that come out with a wrong speed or not at
 # all; one map a method.

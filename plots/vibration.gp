@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Kinetic energy per sphere of beds without friction over time: colour by kappa,
 # dash by method.
 #   gnuplot -c plots/vibration.gp IN OUT

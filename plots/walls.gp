@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # How near the walls are: solid fraction (union) against the distance from the
 # side walls (above), and the mean of beds against the side of the box, with what
 # others found for spheres in cylinders (below). Lengths in diameters.

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What the walls do to beds: plots/walls.sh profile|size BED...
 # BED is named .../BASE-SEED.bed, BASE the side of its box in m, or
 # .../rotation-SEED.bed, the paper's bed of 200 spheres. Each is taken with the

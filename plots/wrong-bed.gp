@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The fraction of beds with friction less that of a sharp run of the same seed:
 # against a fixed step, with the share of the contacts' force whose slip that
 # step makes oscillate; and against the tolerance of adaptive methods.

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # One run of settle and its bed as a row, for the charts over many of them.
 #   bed.sh SETTINGS > ROW
 # SETTINGS is a path that is the command line: model-rotation/tol-1e-3/seed-3

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Whole beds: error of the fraction against CPU time by method and tolerance.
 # One file a run under build/data/beds, named by the options of settle that made it
 # (precision/bed.sh), so that a stopped make goes on where it was. The CPU times

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A sphere dropped from 16 m: time of the first apex after the rebound, and
    the energy there. For e = 1 against the energy integral, else against two
    methods at a tight tolerance, which see the contact only: the way there and

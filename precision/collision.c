@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A sphere meets a wall, e = 1, no gravity, from as far away as where the run
    ends: against sech^2. */
 #include <gsl/gsl_errno.h>

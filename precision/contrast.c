@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One collision by three laws, to show what the smoothness of the paper's is
    worth: its exponential repulsion, a linear spring, which begins with a kink
    at touch, and the law of Walton and Braun (J. Rheol. 30 (1986) 949), whose

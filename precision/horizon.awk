@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Largest distance between the spheres of two beds of the same frames, in
 # diameters, over time, as a block.
 #   awk -v variant=V -v method=M -f horizon.awk BED BED

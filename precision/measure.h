@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the scenes have in common. */
 #ifndef MEASURE_H
 #define MEASURE_H

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What a kink costs: the order that is observed at fixed steps, and the share of
 # adaptive steps that are rejected at a tolerance of 1e-6. Sets come as pairs
 # SET.tsv, by tolerance, and SET-steps.tsv, by step. The order is the slope of a

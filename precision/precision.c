@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* precision: one scene, one method, a ladder of tolerances or fixed steps; a
    row a run with its error and its cost. */
 #include <math.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Work-precision charts of small scenes: every stepper over a ladder of
 # tolerances, verlet over fixed steps. Data are one file a run (set x method)
 # under build/data/precision, so that a stopped make goes on where it was; a

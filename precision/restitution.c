@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A sphere meets a wall without gravity: its speed after the collision against
    the integral over the rebound function, at speeds where psi is finite. */
 #include <stdlib.h>

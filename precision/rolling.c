@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A sphere that slides on the floor until it rolls. Friction is only C^1: at
    the slip speed vmin its second derivative jumps. What a method makes of that
    depends on where within a step it happens, so errors are root mean squares

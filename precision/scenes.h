@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Scenes of the work-precision charts: each in a file of its own, each with an
    error that needs no faith. The main program runs a scene with one method over
    a ladder of tolerances or steps and prints a row a run. */

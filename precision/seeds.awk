@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The union seed by seed, as a table in Markdown: Merson with two tolerances,
 # and rkc, with their differences to Merson's sharper one.
 #   awk -f seeds.awk ROW...    rows of bed.sh

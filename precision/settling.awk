@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Error of the mean fraction by method and setting, from rows of bed.sh: blocks
 # of a model and method, for plots/settling.gp and bench/markdown.awk.
 #   awk -f settling.awk ROW...

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Equal spheres on a line, e = 1, no gravity, every bond between neighbours
    kept: the Toda lattice. The eigenvalues of the symmetric matrix with the
    velocities on its diagonal and

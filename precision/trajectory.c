@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Spheres fall into a box, 2 x 2 x 2 of them or the paper's 200, over the time
    for which two tight runs agree on where they are. What that time is depends
    on the scene: settling is chaotic, and errors grow until nothing is left to

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Trajectories of falling spheres, by the rules of precision.mk; each over the
 # time in which two tight runs agree (how long that is: horizon). Steps are
 # limited by travel as in settle.

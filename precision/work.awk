@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Work that a method takes to reach an error, for each set (file) and each of
 # its errors: evaluations and CPU time for three targets, in brackets by what
 # factor that is more than the best. Between the rungs of a ladder by straight

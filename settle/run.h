@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The run: steps, frames, log, progress and what is said at its end. */
 #ifndef RUN_H
 #define RUN_H

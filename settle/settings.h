@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What settle was asked to do. */
 #ifndef SETTINGS_H
 #define SETTINGS_H

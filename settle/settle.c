@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* settle: integrates a bed of spheres, from the paper's start or from a file,
    and writes its frames. */
 #include <string.h>

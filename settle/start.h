@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Where a run starts: the paper's grid or the last frame of a file. */
 #ifndef START_H
 #define START_H

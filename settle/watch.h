@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a run looks at beside its results, so that a bed that went wrong does
    not pass for a good one: a step at its stability limit, spheres that go too
    deep into each other or through a wall, energy from nowhere, a tolerance that

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Where beds go wrong: a map of outcomes over tolerance, kappa and variant; the
 # stiffest spheres coming to rest; the fraction against step and tolerance. Runs
 # are those of precision/beds.mk, one file each, named by settle's options.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* cut: a contact ends at the gap lmax, with a jump of F0 exp(-kappa lmax).
    What floor does that put under the accuracy, and would a smooth taper raise
    it? A sphere meets a wall, e = 1, no gravity, in two unknowns; the taper is

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* drift: energy of an elastic scene without friction, e = 1 and phi = 0, over
    long times; nothing may be gained or lost (closed form 6). A sphere that
    bounces on the floor, or a closed box of spheres under gravity. With --cost

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Kinetic energy per sphere (J), without spin, of each frame of a bed:
 #   awk -v run=NAME -f kinetic.awk BED
 BEGIN {

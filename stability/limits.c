@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* limits: the largest stable step of each method, by bisection on a fixed
    step, on two contacts whose linear behaviour is known.
 

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What became of beds: a row a cell of the map, from rows of precision/bed.sh.
 #   map.sh ROW... > MAP
 # A cell is a panel (model, method; -free without the limit by travel, -short

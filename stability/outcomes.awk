@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Sums the outcomes of stability tunnel over speeds and tolerances.
 BEGIN { FS = OFS = "\t" }
 /^#/ { next }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* regions: |R(z)| of each method on a grid of the complex plane, R by applying
    the stepper itself to y' = lambda y as a real system of two. One block a
    method, upper half plane only: R of the conjugate is the conjugate. */

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # How fast slip relaxes in a settled bed: for a range of steps the share of the
 # contacts' force that is held by contacts whose slip a step of forward Euler,
 # which is what Verlet does to forces by velocities, makes oscillate.

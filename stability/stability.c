@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* stability: where methods fail. The first argument names a study. */
 #include <stdio.h>
 #include <string.h>

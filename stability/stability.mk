@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Where methods fail: build/stability VERB, one file of data a run under
 # build/data/stability, charts and tables under build/figures. QUICK=1: reduced
 # ones. Other .mk files add what they chart by a line `stability: FILES`.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A stepper applied with a fixed step, without any control, and for rkc with a
    stage number of one's choice. Not in the paper. */
 #ifndef STEPPER_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tunnel: a fast sphere comes out of free flight, where the error estimate is
    zero and the step grows without bound. Does the method see what it meets:
    another sphere, or a wall?

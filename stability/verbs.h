@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The verbs of stability: each a study in a file of its own. argv[0] is the
    verb; returns the program's exit status. */
 #ifndef STABILITY_VERBS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The tests' one harness. A failed check prints where and what and the program
    goes on; check_done() prints the line "N passed, N failed" and gives the
    exit status. NaN never passes. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Feeds any bytes to the readers of all formats (make fuzz): they may refuse
    them, but not crash, hang, or give a frame that is none. What a frame holds,
    written as a bed, is read back bit for bit. */

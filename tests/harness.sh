@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What the test scripts have in common; sourced, from the root of the repository,
 # first thing. B is the directory of the programs, T a scratch one. A script ends
 # with check_done.

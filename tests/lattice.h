@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lattices of unit spacing for the tests: cubes of cells in bulk. */
 #ifndef LATTICE_H
 #define LATTICE_H

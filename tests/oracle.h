@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The right-hand side (2.13)-(2.15) as the paper writes it: every pair, every
    wall, one formula after the other, no thought of speed. What the optimised
    kernels are compared with; shares the structs scene and bed with them and no

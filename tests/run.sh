@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Runs test programs and scripts, prints the output of each and, last, one line
 # "N passed, N failed" for all. A program that ends without its own such line,
 # or with an exit status of its own, counts as one more failure.

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # analyze contacts, rest, gr and order on beds whose numbers are known.
 . tests/harness.sh
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Areas of discs and of spheres on a cylinder's shell against closed forms,
    against quadrature of lengths that are found in another way, and against the
    volumes that they integrate to. A failing random case prints its seed.

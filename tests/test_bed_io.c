@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The bed format: what is written comes back bit for bit, and what is not a
    whole, well-formed file is refused with the line where it goes wrong. */
 #define _POSIX_C_SOURCE 200809L /* fmemopen, open_memstream */

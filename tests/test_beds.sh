@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Whole beds and trajectories at their reduced size (QUICK=1): what the pages
 # docs/precision.md and docs/stability.md say of them must be in the data, and
 # the scripts that count it must count right. Run from the root of the

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The programs as their users meet them: what they refuse and how they say so,
 # what they promise about output, restarts and files. Run from the root of the
 # repository; B is the directory of the programs.

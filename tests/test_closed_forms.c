@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The physics: trajectories of the equations (2.13)-(2.15) against what is
    known of them in closed form, for the paper's method and two others at a
    tight tolerance. lmax is so large that F[lmax] < 1e-60 N, but for the slow

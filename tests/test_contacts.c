@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Contacts, their forces, coordination, rattlers and loads (measure/network), a
    scene from a header (program/scene_options), and the rest criterion. */
 #include <stdlib.h>

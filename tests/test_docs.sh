@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The pages are in step with the captions they include, and every file that they
 # name is there.
 . tests/harness.sh

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Pictures and animations of beds: what is on them, where the scripts are found,
 # and what is said when something is missing. Run from the root of the
 # repository; B is the directory of the programs.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The equations of motion against their plain transcription in oracle.h, and
    against what any such system obeys: gradients, balances, symmetries. The
    random cases are numbered by their seeds; a failing one prints its own. */

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What `analyze export` promises: formats read back by others' readers (where
 # they are installed) and by our own, frames, file names, refusals. Its binary
 # formats are taken apart in test_export.c. Run from the root of the repository;

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # analyze reads what others write: from a file or a pipe, by content, whatever
 # the name; and files that LAMMPS and ASE themselves wrote, where they are
 # installed. Run from the root of the repository; B is the directory of the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The free-running integrator: accuracy, bookkeeping, interpolation, limits of
    the step, and what remains after a failure. Two oscillators of the form that
    the dynamics has, rows of a position and a velocity, serve throughout. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lists of neighbours against a plain search of all pairs. The random clouds
    are numbered by their seeds; a failing one prints its own. */
 #define _POSIX_C_SOURCE 200809L

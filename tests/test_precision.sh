@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # make precision QUICK=1: errors are as small as tolerances promise, orders are
 # those of the methods and of the contact laws' smoothness, failures are marked.
 . tests/harness.sh

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # analyze fraction with many boxes, profile and radius as their users meet them.
 # Run from the root of the repository; B is the directory of the programs.
 . tests/harness.sh

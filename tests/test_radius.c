@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The radius of a bed's geometry: lattices and pairs, where every choice has a
    closed form, and random clusters, where it obeys its definition. */
 #include <float.h>

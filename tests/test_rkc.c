@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Runge-Kutta-Chebyshev: order with few stages and with many, the stability
    polynomial against its closed form, the spectral radius against eigenvalues
    of the Jacobian, and the contract of a step type. */

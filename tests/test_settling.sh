@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The main job at its full size: 200 spheres for 8 s. Ranges are the paper's
 # levels and those that its author's program reaches (README, "Paper and ours");
 # two methods must agree on the bed.

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The studies of where methods fail, at their reduced size: `make QUICK=1
 # stability-...` runs them, and what the page docs/stability.md says of them must
 # be in the data. Run from the root of the repository; B is the directory of the

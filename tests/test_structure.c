@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pair correlation (measure/correlation) and bond order (measure/bond_order).
  */
 #include <stdlib.h>

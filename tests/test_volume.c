@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Volumes of clipped balls and unions against closed forms, against quadrature
    of areas that are found in another way, and against the identities that any
    volume obeys. The random cases are numbered by their seeds; a failing one

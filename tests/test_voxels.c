@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Voxel grids: one cell against the closed form of an octant in long double;
    grids against volume_ball_box, volume_union and volume_sampled; distances
    against all spheres. */

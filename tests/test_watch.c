@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What diagnoses stand on: how far methods reach, against their stability
    polynomials; the dominant eigenvalue, against known ones and those of a dense
    matrix; a survey of the contacts, against oracle.h; and that looking changes

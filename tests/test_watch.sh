@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What settle and bounce say of a run that goes wrong, made to go wrong here,
 # and that they say nothing of a good one. Run from the root of the repository;
 # B is the directory of the programs.

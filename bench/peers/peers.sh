@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The bed of 200 spheres in other codes: the same start, box, mass, gravity and
 # end time, their own contact laws; CPU time and volume fraction side by side.
 #

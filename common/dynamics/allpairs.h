@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The paper's own way to evaluate forces: for each sphere every other one, so
    each pair twice, and every wall. The baseline of the benchmarks. Internal to
    dynamics.c. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Right-hand side of the equations of motion (2.13)-(2.15) as a gsl_odeiv2
    system.
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A contact's force depends on u = x_i - x_j, the relative velocity w and the
    sum of radius times spin s. Derivatives follow from the chain rule over the
    normal n = u/d, the gap rate n.w and the slip velocity t; P is the projector

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Analytic Jacobian of the contact forces. Internal to dynamics.c. */
 #ifndef JACOBIAN_H
 #define JACOBIAN_H

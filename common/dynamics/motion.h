@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Spheres in motion: a scene's right-hand side and an integrator put together.
    Not in the paper. One motion per thread. Tested in
    tests/test_closed_forms.c. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a state's contacts say in one pass over the list: energies, the deepest
    overlap and the spheres' places before the walls. Internal to dynamics.c.
    Safe in any thread. Tested in tests/test_watch.c. */

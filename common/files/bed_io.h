@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The bed format: start state, snapshot, restart and archive in one; text,
    tab-separated, %.17g, frames separated by two blank lines, "# key=value"
    lines, a line of column names, and a last line "# status=ok". README.md

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the readers of all formats share: lines with their numbers, messages
    that name them, columns, rows, frames. For files/read_*.c; others use
    bed_io.h. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Our own format, and tables: a line of names, then a row for each sphere.
    What begins with "# key=value" is a bed, whose columns are known and whose
    end is marked. A table may have other columns besides and just ends. */

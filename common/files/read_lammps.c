@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Text dumps of LAMMPS and LIGGGHTS: frames of items, each a line "ITEM: ..."
    and what belongs to it. docs.lammps.org/dump.html, Howto_triclinic.html. */
 #include "files/bed_reader.h"

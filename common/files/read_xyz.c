@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* XYZ: a count, a comment, and a row for each sphere; in the extended form the
    comment says what the columns are (Properties=species:S:1:pos:R:3:...), and
    the time. github.com/libAtoms/extxyz describes it. */

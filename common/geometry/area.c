@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Discs. The argument of volume.c in the plane: seen from the centre O of the
    disc, what lies behind an edge of the polygon P, its shadow, is taken away or
    added whole,

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Exact areas of discs in a rectangle and of spheres on the shell of a
    cylinder, summed and united: what a plane or a shell at some distance from a
    wall has of spheres. Not in the paper. Lengths in m, areas in m^2; rectangles

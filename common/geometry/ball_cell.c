@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How the volume comes about.
 
    Let z be the axis along which the cell is farthest from the centre of the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Volume of a ball inside a small box, to the rounding of the box; not in the
    paper. volume_ball_box is exact to the rounding of the whole ball, which for
    a cell of a fine grid is that of (r/h)^3 cells; here the integral stays

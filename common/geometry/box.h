@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Boxes {x0, x1, y0, y1, z0, z1} along the axes (m). Pure inline functions,
    safe in any thread. Tested in tests/test_analyze_structure.sh. */
 #ifndef BOX_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What volume.c and area.c share: half-spaces {x: n.x <= h} seen from the
    centre of a ball or disc, and how one restricts the boundary of another. Unit
    normals n; offsets h from the centre (m). Pure inline functions, safe in any

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pairs of spheres close to each other, found with a cell grid in O(n). */
 #ifndef NEIGHBORS_H
 #define NEIGHBORS_H

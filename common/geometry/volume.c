@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How the volumes come about.
 
    Stand at the centre O of the ball and look along a ray. It starts in the

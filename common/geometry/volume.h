@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Exact volumes of spheres clipped by planes and boxes, alone, summed and
    united; not in the paper, whose count of midpoints is volume_sampled.
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A box cut into equal cells, and what spheres make of each: the exact solid
    fraction, whether its midpoint is solid, or the midpoint's distance to the
    surface. Row by row, so that a grid needs no memory of its own; not in the

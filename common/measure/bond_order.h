@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Bond-orientational order of each point's neighbourhood, from spherical
    harmonics of the directions to its neighbours; not in the paper. Tested in
    tests/test_structure.c. */

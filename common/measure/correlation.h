@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pair correlation g(r) of points in a box, with the edge correction exact; not
    in the paper. Tested in tests/test_structure.c. */
 #ifndef CORRELATION_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The contacts of a bed one by one, each with the force that the law gives it,
    and what follows: coordination, rattlers, fabric, loads on the walls. For
    measuring; dynamics.h has the fast sums. Safe in any thread, one network at a

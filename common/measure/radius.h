@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The radius of a bed's geometry. In the model F0 and r are one parameter (pair
    forces depend on F0 exp(2 kappa r) only) and spheres at rest overlap, so the
    radius at which a bed is measured or handed on is a decision; not in the

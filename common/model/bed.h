@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Spheres: who, where, how large, how fast. Rows of three doubles. */
 #ifndef BED_H
 #define BED_H

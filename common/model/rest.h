@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* When a bed is at rest: no surface was faster than vmin, the speed below which
    the model's own friction lets a loaded contact creep, for 0.1 s. What settle
    --until-rest waits for and analyze rest tells. Not in the paper. Safe in any

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a scene has besides its spheres: the variant of the model, the contact
    law's parameters, gravity and walls; and one check of it all. */
 #ifndef SCENE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How long a body takes for a way. Pure, safe in any thread. Tested in
    tests/test_dynamics.c. */
 #ifndef TRAVEL_H

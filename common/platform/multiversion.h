@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* MULTIVERSION before a function compiles its plain loops for several
    instruction sets; the loader takes the best that the machine has. Not under
    the sanitizers, which are not up yet when it chooses. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Command lines and parameter headers from one table; messages and exit
    status. */
 #ifndef OPTIONS_H

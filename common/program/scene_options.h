@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A scene as options name it: from a command line (SCENE_OPTIONS in
    shared_options.h) or from the keys of a bed's header. Tested in
    tests/test_contacts.c and, through settle, in tests/test_cli.sh. */

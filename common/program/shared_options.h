@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rows of option tables that programs share. */
 #ifndef SHARED_OPTIONS_H
 #define SHARED_OPTIONS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Step controls of our own as gsl_odeiv2 control types. */
 #ifndef CONTROL_H
 #define CONTROL_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "steppers/dopri5.h"
 #include "steppers/runge_kutta.h"
 #include "steppers/step_type.h"

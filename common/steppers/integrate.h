@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A free-running integration: stepper and step control by name, one accepted
    step at a time, outputs interpolated between steps so that asking for more
    of them changes no trajectory. Tested in tests/test_integrate.c. */

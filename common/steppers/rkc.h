@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Runge-Kutta-Chebyshev of order 2 with a variable number of stages, for
    stiff systems whose fast modes are damped: B. P. Sommeijer, L. F. Shampine,
    J. G. Verwer, J. Comput. Appl. Math. 88 (1998) 315. s stages reach about

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Explicit embedded Runge-Kutta pairs as gsl_odeiv2 step types: the engine.
    A method is a file of its own with its tableau and one exported pointer. */
 #ifndef RUNGE_KUTTA_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a gsl_odeiv2 step or control type has to have and ours do without: GSL
    calls both unchecked and keeps its own empty versions private. */
 #ifndef STEP_TYPE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How stiff a problem is for a method: the fastest mode of a right-hand side,
    and how far an explicit step reaches. Not in the paper. Tested in
    tests/test_watch.c. */
