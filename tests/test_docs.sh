@@ -9,7 +9,8 @@ report() { # NAME STATUS
 }
 
 included=0
-for page in README.md docs/*.md; do
+pages="README.md CONTRIBUTING.md docs/*.md"
+for page in $pages; do
   awk -f docs/include.awk "$page" | cmp -s - "$page"
   report "$page: captions are not those of docs/ (make readme)" $?
   n=$(grep -c '^<!-- docs/' "$page")
