@@ -106,7 +106,6 @@ int main(int argc, char **argv) {
 #ifdef _OPENMP
   if (s.threads == 0)
     s.threads = (size_t)omp_get_num_procs();
-  omp_set_num_threads((int)s.threads);
 #else
   s.threads = 1;
 #endif

@@ -19,6 +19,7 @@
 #include <gsl/gsl_math.h>
 #include "model/closed_forms.h"
 #include "dynamics/dynamics.h"
+#include "steppers/chebyshev.h"
 #include "steppers/rkc.h"
 #include "program/shared_options.h"
 #include "stepper.h"
@@ -164,7 +165,7 @@ static double theory(struct pressed *p, struct stepper_kind kind) {
   /* rkc left alone takes the stages it needs, up to 400, for 1.2 times its
      estimate of the spectral radius */
   if (!strcmp(kind.method, "rkc") && !kind.stages)
-    return rkc_reach(400) / 1.2;
+    return chebyshev_reach(CHEBYSHEV_MOST) / 1.2;
   return first_z(amplifies, p, kind, 0.01);
 }
 

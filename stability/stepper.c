@@ -6,6 +6,7 @@
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include "steppers/integrate.h"
+#include "steppers/chebyshev.h"
 #include "steppers/rkc.h"
 #include "steppers/stiffness.h"
 #include "steppers/verlet.h"
@@ -56,7 +57,8 @@ static int decay_rhs(double t, const double y[], double dydt[], void *params) {
 static int set_stages(struct stepper *s, double h) {
   const size_t dim = s->step->dimension;
   /* rkc takes 1.2 times its estimate */
-  struct decay decay = {dim, 0.999 * rkc_reach(s->kind.stages) / (1.2 * h)};
+  struct decay decay = {dim,
+                        0.999 * chebyshev_reach(s->kind.stages) / (1.2 * h)};
   const gsl_odeiv2_system sys = {
       .function = decay_rhs, .dimension = dim, .params = &decay};
   for (size_t i = 0; i < dim; i++)

@@ -17,6 +17,7 @@
 #include "steppers/control.h"
 #include "dynamics/dynamics.h"
 #include "steppers/integrate.h"
+#include "steppers/chebyshev.h"
 #include "steppers/rkc.h"
 #include "model/scene.h"
 
@@ -374,15 +375,98 @@ static void test_reach(void) {
     const struct polynomial p = polynomial(s);
     const double sd = (double)s;
     /* the closed form's differences lose a factor 10 or so */
-    CHECK_REL(rkc_reach(s), (p.w0 + 1) / p.w1, ULPS(50 * sd));
+    CHECK_REL(chebyshev_reach(s), (p.w0 + 1) / p.w1, ULPS(50 * sd));
     /* authors' expansion; its next term is of the order of damping^2 */
-    CHECK_REL(rkc_reach(s), 2. / 3 * (sd * sd - 1) * (1 - 2. / 15 * damping),
+    CHECK_REL(chebyshev_reach(s),
+              2. / 3 * (sd * sd - 1) * (1 - 2. / 15 * damping),
               0.1 * damping * damping);
-    CHECK(rkc_reach(s) >= (s < 4 ? 0.49 : 0.6) * sd * sd);
+    CHECK(chebyshev_reach(s) >= (s < 4 ? 0.49 : 0.6) * sd * sd);
   }
   printf("reach/s^2: %.4f (2) %.4f (3) %.4f (4) %.4f (10) %.4f (60)\n",
-         rkc_reach(2) / 4, rkc_reach(3) / 9, rkc_reach(4) / 16,
-         rkc_reach(10) / 100, rkc_reach(60) / 3600);
+         chebyshev_reach(2) / 4, chebyshev_reach(3) / 9,
+         chebyshev_reach(4) / 16, chebyshev_reach(10) / 100,
+         chebyshev_reach(60) / 3600);
+}
+
+/* b_j = T_j''/(T_j')^2 and c_j = w1 T_j''/T_j' at w0, from cosh; b_0 = b_1 =
+   b_2, c_0 = 0, c_1 = w1 b_1. */
+struct term {
+  double t, b, c;
+};
+
+static struct term term(const struct polynomial *p, size_t stages, size_t j) {
+  const long double s = (long double)stages, e = 2 / (13 * s * s), w0 = 1 + e;
+  const long double theta = 2 * asinhl(sqrtl(e / 2));
+  if (j < 2) {
+    const long double b = 1 / (4 * w0 * w0);
+    return (struct term){j ? (double)w0 : 1, (double)b,
+                         j ? (double)(p->w1 * b) : 0};
+  }
+  const long double k = (long double)j, t = coshl(k * theta),
+                    d = k * sinhl(k * theta) / sinhl(theta),
+                    dd = (k * k * t - w0 * d) / (e * (2 + e));
+  return (struct term){(double)t, (double)(dd / (d * d)),
+                       (double)(p->w1 * dd / d)};
+}
+
+static void check_scheme(const struct chebyshev_scheme *c, size_t s) {
+  const struct polynomial p = polynomial(s);
+  const double sd = (double)s, tol = ULPS(50 * sd);
+  CHECK(c->stages == s);
+  CHECK_REL(c->reach, (p.w0 + 1) / p.w1, tol);
+  CHECK_REL(c->w1 * c->b1, p.w1 / (4 * p.w0 * p.w0), tol);
+  /* y' = 1 and y' = 2 t from 0, what order 2 makes exact: Y_j-1 and Y_j-2 */
+  const double start[2] = {0, 0}, f0[2] = {1, 0};
+  double now[2] = {c->w1 * c->b1, 0}, before[2] = {0, 0};
+  double off[5] = {0};
+  for (size_t j = 2; j <= s; j++) {
+    const struct chebyshev_stage *k = &c->stage[j - 2];
+    const struct term this = term(&p, s, j), one = term(&p, s, j - 1),
+                      two = term(&p, s, j - 2);
+    const double ratio = this.b / one.b, f[2] = {1, 2 * k->time};
+    const double difference[] = {
+        k->mu / (2 * ratio * p.w0) - 1, k->nu / (-this.b / two.b) - 1,
+        k->rate / (2 * ratio * p.w1) - 1,
+        k->start / k->rate + (1 - one.b * one.t), k->time - one.c};
+    for (size_t i = 0; i < COUNT(off); i++)
+      if (!(fabs(difference[i]) <= off[i])) /* NaN stays */
+        off[i] = fabs(difference[i]);
+    const struct stage sum = chebyshev_stage(k, 1, start, f0);
+    stage_combine(&sum, 0, 2, now, f, before);
+    for (int i = 0; i < 2; i++) {
+      const double next = before[i];
+      before[i] = now[i];
+      now[i] = next;
+    }
+  }
+  for (size_t i = 0; i < COUNT(off); i++)
+    CHECK_CLOSE(off[i], 0, i < 4 ? tol : ULPS(sd * sd));
+  CHECK_CLOSE(now[0], 1, ULPS(sd * sd));
+  CHECK_CLOSE(now[1], 1, ULPS(sd * sd));
+}
+
+static void test_schemes(void) {
+  struct chebyshev *c;
+  if (!CHECK(chebyshev_alloc(&c) == GSL_SUCCESS))
+    return;
+  /* in no order: what is remembered of one is not another's */
+  for (size_t k = 0; k < CHEBYSHEV_MOST - 1; k++) {
+    const size_t s = 2 + (k * 151) % (CHEBYSHEV_MOST - 1);
+    const double reach = chebyshev_reach(s);
+    CHECK(chebyshev_stages(c, reach) == s);
+    CHECK(chebyshev_stages(c, reach * (1 + 1e-15)) ==
+          (s < CHEBYSHEV_MOST ? s + 1 : 0));
+    const struct chebyshev_scheme *scheme = chebyshev_scheme(c, s);
+    if (!CHECK(scheme))
+      continue;
+    check_scheme(scheme, s);
+    CHECK(chebyshev_scheme(c, s) == scheme);
+  }
+  CHECK(chebyshev_stages(c, 0) == 2);
+  CHECK(chebyshev_stages(c, GSL_NAN) == 0);
+  CHECK(chebyshev_stages(c, GSL_POSINF) == 0);
+  chebyshev_free(c);
+  chebyshev_free(NULL);
 }
 
 static void test_stability_polynomial(void) {
@@ -392,7 +476,7 @@ static void test_stability_polynomial(void) {
   CHECK_CLOSE(factor, 1.2, 1e-6);
   double worst = 0;
   for (size_t s = 2; s <= 60; s++) {
-    const double reach = rkc_reach(s);
+    const double reach = chebyshev_reach(s);
     const struct polynomial p = polynomial(s);
     for (size_t i = 0; i < N; i++)
       lambda[i + 1] = -reach * (double)i / (N - 1);
@@ -446,10 +530,11 @@ static void test_oblique(void) {
     const struct polynomial p = polynomial(s);
     printf("%18zu stages   ", s);
     for (size_t k = 0; k < COUNT(ratios); k++) {
-      const double most = k ? 1.2 * rkc_reach(s) / hypot(1, ratios[k]) : 0.1;
+      const double most =
+          k ? 1.2 * chebyshev_reach(s) / hypot(1, ratios[k]) : 0.1;
       for (int j = 1; j <= N; j++)
         lambda[j] = (-ratios[k] + I) * most * j / N;
-      CHECK(one_step(rkc_reach(s) * (1 - 1e-5) / factor, N + 1, lambda, r,
+      CHECK(one_step(chebyshev_reach(s) * (1 - 1e-5) / factor, N + 1, lambda, r,
                      NULL) == s);
       int j = 1, want = 1;
       while (j <= N && cabs(r[j]) <= 1 + 1e-9)
@@ -905,6 +990,7 @@ int main(void) {
   test_orders();
   test_stiff_order();
   test_reach();
+  test_schemes();
   test_stability_polynomial();
   test_oblique();
   test_radius();

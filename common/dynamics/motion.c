@@ -47,7 +47,8 @@ int motion_start(struct motion *m, const struct scene *s, const struct bed *b,
                                  .row = dynamics_stride(m->dynamics),
                                  .positions = 3,
                                  .step_limit = travel > 0 ? step_limit : NULL,
-                                 .stage = d->all_pairs ? NULL : stage},
+                                 .stage = d->all_pairs ? NULL : stage,
+                                 .threads = d->threads},
                              b->t, y);
   }
   free(y);

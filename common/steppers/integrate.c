@@ -131,7 +131,7 @@ int integrate_alloc(struct integrator **out, const struct integrate_options *o,
   if (type == verlet)
     verlet_set_layout(it->step, problem->row, problem->positions);
   if (type == rkc)
-    rkc_set_stage(it->step, problem->stage);
+    rkc_set_system(it->step, problem->stage, problem->threads);
   it->driver = (gsl_odeiv2_driver){
       .sys = &it->system, .s = it->step, .c = it->control, .e = it->evolve};
   gsl_odeiv2_step_set_driver(it->step, &it->driver);

@@ -46,6 +46,7 @@ struct integrate_problem {
   /* The right-hand side within a stage, for methods that make use of it, or
      NULL. */
   stage_function *stage;
+  int threads; /* that may share vectors of the system's size; 0: one */
 };
 
 struct integrate_counts {

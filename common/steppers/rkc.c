@@ -8,11 +8,8 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include "platform/multiversion.h"
+#include "steppers/chebyshev.h"
 #include "steppers/step_type.h"
-
-/* Damping keeps |R(z)| below 1 - epsilon/3 in the interior of the interval;
-   the value is the authors'. */
-static const double damping = 2. / 13;
 
 /* The estimate grows towards the spectral radius from below. */
 static const double safety = 1.2;
@@ -21,10 +18,6 @@ static const double safety = 1.2;
    make the radius several times larger within a step; a step that was too long
    for it is rejected. */
 static const double agreement = 0.1;
-
-/* More stages than this gain nothing on a shorter step and let rounding
-   grow. */
-enum { MOST_STAGES = 400 };
 
 /* Power iterations at most when nothing is known and when something is, and
    how many steps an estimate serves unless one is rejected. */
@@ -35,7 +28,9 @@ struct state {
   double radius;         /* spectral radius */
   size_t steps;          /* since it was estimated */
   stage_function *stage; /* of the system, or NULL */
-  double last_start;     /* of the last attempt, to know a second one by */
+  int threads;
+  struct chebyshev *chebyshev;
+  double last_start; /* of the last attempt, to know a second one by */
   struct rkc_report report;
   size_t dim;
   double work[]; /* direction, y at the start, two stages, slopes: 6 dim */
@@ -43,28 +38,36 @@ struct state {
 
 static void *alloc(size_t dim) {
   struct state *s = calloc(1, sizeof *s + 6 * dim * sizeof(double));
-  if (s) {
-    s->dim = dim;
-    s->last_start = GSL_NAN;
+  if (!s || chebyshev_alloc(&s->chebyshev) != GSL_SUCCESS) {
+    free(s);
+    return NULL;
   }
+  s->dim = dim;
+  s->threads = 1;
+  s->last_start = GSL_NAN;
   return s;
 }
 
-/* Vectors of large systems are shared, a chunk at a time, among the threads
-   that OpenMP is set to. */
+static void release(void *state) {
+  chebyshev_free(((struct state *)state)->chebyshev);
+  free(state);
+}
+
+/* Vectors of large systems are shared, a chunk at a time, among threads. */
 enum { CHUNK = 8192, WORTH_SHARING = 8 * CHUNK };
 
 /* As a system without a stage function does it; f is scratch. */
-static int stage_by_parts(double t, const double y[], const struct stage *s,
-                          double out[], const gsl_odeiv2_system *sys,
-                          double *f) {
+static int stage_by_parts(const struct state *s, double t, const double y[],
+                          const struct stage *stage, double out[],
+                          const gsl_odeiv2_system *sys, double *f) {
   const size_t dim = sys->dimension;
   const int status = GSL_ODEIV_FN_EVAL(sys, t, y, f);
   if (status != GSL_SUCCESS)
     return status;
-#pragma omp parallel for schedule(static) if (dim >= WORTH_SHARING)
+#pragma omp parallel for num_threads(s->threads)                               \
+    schedule(static) if (dim >= WORTH_SHARING)
   for (size_t c = 0; c < dim; c += CHUNK)
-    stage_combine(s, c, GSL_MIN(CHUNK, dim - c), y, f + c, out);
+    stage_combine(stage, c, GSL_MIN(CHUNK, dim - c), y, f + c, out);
   return GSL_SUCCESS;
 }
 
@@ -134,29 +137,6 @@ static int estimate_radius(struct state *s, double t, const double *y,
   return GSL_SUCCESS;
 }
 
-double rkc_reach(size_t stages) {
-  const double s = (double)stages;
-  const double w0 = 1 + damping / (s * s);
-  /* T_s, T_s', T_s'' at w0 by the recurrence */
-  double t0 = 1, t1 = w0, d0 = 0, d1 = 1, e0 = 0, e1 = 0;
-  for (size_t j = 2; j <= stages; j++) {
-    const double t = 2 * w0 * t1 - t0;
-    const double d = 2 * w0 * d1 - d0 + 2 * t1;
-    const double e = 2 * w0 * e1 - e0 + 4 * d1;
-    t0 = t1, t1 = t;
-    d0 = d1, d1 = d;
-    e0 = e1, e1 = e;
-  }
-  return (w0 + 1) * e1 / d1;
-}
-
-static size_t stages_for(double z) {
-  size_t stages = (size_t)GSL_MAX(2, floor(sqrt(1 + 1.54 * z)));
-  while (rkc_reach(stages) < z)
-    stages++;
-  return stages;
-}
-
 static int apply(void *vstate, size_t dim, double t, double h, double y[],
                  double yerr[], const double dydt_in[], double dydt_out[],
                  const gsl_odeiv2_system *sys) {
@@ -176,51 +156,28 @@ static int apply(void *vstate, size_t dim, double t, double h, double y[],
   s->last_start = t;
   if (status != GSL_SUCCESS)
     return status;
-  if (!(fabs(h) * s->radius <= rkc_reach(MOST_STAGES)))
+  const size_t stages = chebyshev_stages(s->chebyshev, fabs(h) * s->radius);
+  if (!stages)
     return GSL_FAILURE; /* evolve halves the step */
-  const size_t stages = stages_for(fabs(h) * s->radius);
+  const struct chebyshev_scheme *scheme =
+      chebyshev_scheme(s->chebyshev, stages);
+  if (!scheme)
+    return GSL_ENOMEM;
   s->report.stages = stages;
   s->report.most_stages = GSL_MAX(s->report.most_stages, stages);
 
-  const double sd = (double)stages;
-  const double w0 = 1 + damping / (sd * sd);
-  const double w1 = (w0 + 1) / rkc_reach(stages);
-  /* b_j = T_j''/(T_j')^2 and the polynomials of the last two stages */
-  double t0 = 1, t1 = w0, d0 = 0, d1 = 1, e0 = 0, e1 = 0;
-  double b1 = 1 / (4 * w0 * w0), b0 = b1; /* b_0 = b_1 = b_2 */
-  double time1 = w1 * b1, time0 = 0;
   double *before = stage, *now = y; /* swap at each stage */
   memcpy(before, start, dim * sizeof *start);
-  euler(dim, h * w1 * b1, start, f0, now);
-  for (size_t j = 2; j <= stages; j++) {
-    const double a1 = 1 - b1 * t1; /* of the stage before */
-    const double tj = 2 * w0 * t1 - t0;
-    const double dj = 2 * w0 * d1 - d0 + 2 * t1;
-    const double ej = 2 * w0 * e1 - e0 + 4 * d1;
-    t0 = t1, t1 = tj;
-    d0 = d1, d1 = dj;
-    e0 = e1, e1 = ej;
-    const double b = ej / (dj * dj);
-    const double mu = 2 * b * w0 / b1, nu = -b / b0;
-    const double m = 2 * b * w1 / b1, g = -a1 * m;
-    const struct stage next = {.start = start,
-                               .rate = f0,
-                               .of_start = 1 - mu - nu,
-                               .of_rate = h * g,
-                               .of_y = mu,
-                               .of_out = nu,
-                               .of_f = h * m};
-    status = s->stage
-                 ? s->stage(t + h * time1, now, &next, before, sys->params)
-                 : stage_by_parts(t + h * time1, now, &next, before, sys, f);
-    if (status != GSL_SUCCESS)
-      break;
+  euler(dim, h * scheme->w1 * scheme->b1, start, f0, now);
+  for (size_t j = 2; j <= stages && status == GSL_SUCCESS; j++) {
+    const struct chebyshev_stage *next = &scheme->stage[j - 2];
+    const struct stage sum = chebyshev_stage(next, h, start, f0);
+    const double time = t + h * next->time;
+    status = s->stage ? s->stage(time, now, &sum, before, sys->params)
+                      : stage_by_parts(s, time, now, &sum, before, sys, f);
     double *swap = before;
     before = now;
     now = swap;
-    const double time = mu * time1 + nu * time0 + m + g;
-    time0 = time1, time1 = time;
-    b0 = b1, b1 = b;
   }
   if (status == GSL_SUCCESS && now != y)
     memcpy(y, now, dim * sizeof *y);
@@ -232,7 +189,8 @@ static int apply(void *vstate, size_t dim, double t, double h, double y[],
     s->known = false; /* the next attempt looks afresh */
     return status;
   }
-#pragma omp parallel for schedule(static) if (dim >= WORTH_SHARING)
+#pragma omp parallel for num_threads(s->threads)                               \
+    schedule(static) if (dim >= WORTH_SHARING)
   for (size_t i = 0; i < dim; i++)
     yerr[i] = 0.8 * (start[i] - y[i]) + 0.4 * h * (f0[i] + end[i]);
   return GSL_SUCCESS;
@@ -259,7 +217,7 @@ static const gsl_odeiv2_step_type type = {.name = "rkc",
                                           .set_driver = step_no_driver,
                                           .reset = reset,
                                           .order = order,
-                                          .free = free};
+                                          .free = release};
 
 const gsl_odeiv2_step_type *const rkc = &type;
 
@@ -267,6 +225,8 @@ struct rkc_report rkc_report(const gsl_odeiv2_step *s) {
   return ((const struct state *)s->state)->report;
 }
 
-void rkc_set_stage(gsl_odeiv2_step *s, stage_function *stage) {
-  ((struct state *)s->state)->stage = stage;
+void rkc_set_system(gsl_odeiv2_step *s, stage_function *stage, int threads) {
+  struct state *state = s->state;
+  state->stage = stage;
+  state->threads = GSL_MAX(threads, 1);
 }

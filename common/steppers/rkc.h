@@ -2,8 +2,8 @@
 /* Runge-Kutta-Chebyshev of order 2 with a variable number of stages, for
    stiff systems whose fast modes are damped: B. P. Sommeijer, L. F. Shampine,
    J. G. Verwer, J. Comput. Appl. Math. 88 (1998) 315. s stages reach about
-   0.65 s^2 on the negative real axis, so that a step costs as the square root
-   of its stiffness. Not in the paper.
+   0.65 s^2 on the negative real axis (chebyshev.h), so that a step costs as the
+   square root of its stiffness. Not in the paper.
 
    The stage number of each step follows from an estimate of the spectral
    radius of df/dy by nonlinear power iteration, which begins along f and goes
@@ -27,13 +27,10 @@ struct rkc_report {
 };
 struct rkc_report rkc_report(const gsl_odeiv2_step *s);
 
-/* Lets a step call a system's own stage function instead of its right-hand
-   side followed by a sum over vectors; NULL, the default, does not. The two
-   differ by rounding. */
-void rkc_set_stage(gsl_odeiv2_step *s, stage_function *stage);
-
-/* The method's coefficients for s >= 2 stages and the step's largest stable
-   h * spectral radius on the negative real axis. */
-double rkc_reach(size_t stages);
+/* A system's own stage function, which a step then calls instead of the
+   right-hand side followed by a sum over vectors, or NULL, the default; the two
+   differ by rounding. And the threads that share the vectors of a large
+   system; 1, the default, for less than that. */
+void rkc_set_system(gsl_odeiv2_step *s, stage_function *stage, int threads);
 
 #endif
