@@ -92,7 +92,7 @@ check: all $(B)/stability $(TEST_PROGRAMS) ## run the tests (minutes)
 FUZZ_CC ?= clang
 FUZZ_SECONDS ?= 60
 FUZZ_SOURCES := tests/fuzz_readers.c $(wildcard common/files/*.c) \
-	common/model/bed.c common/program/options.c
+	common/model/bed.c
 $(B)/fuzz/readers: $(FUZZ_SOURCES) $(wildcard common/files/*.h)
 	@mkdir -p $(@D)
 	$(FUZZ_CC) -std=c11 -O1 -g -fsanitize=fuzzer,address,undefined \

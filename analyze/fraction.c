@@ -46,7 +46,7 @@ static void read_boxes(struct boxes *boxes, const char *path) {
     line[strcspn(line, "#\r\n")] = 0;
     char *rest = line;
     for (char *word; (word = strtok_r(rest, " \t", &rest)); words++)
-      numbers = numbers && words < 6 && parse_double(word, &box[words]);
+      numbers = numbers && words < 6 && number_parse(word, &box[words]);
     if (words == 0)
       continue;
     if (!numbers || words != 6)

@@ -19,8 +19,7 @@ void frames_open(struct frames *f, const struct frames_options *o, int argc,
                                              .may_be_empty = o->may_be_empty,
                                              .radius = o->radius,
                                              .largest = 1e100};
-  f->reader = bed_reader_open_any(f->in, f->name, &options);
-  if (!f->reader)
+  if (bed_reader_open(&f->reader, f->in, f->name, &options) != GSL_SUCCESS)
     die(EXIT_IO, "out of memory");
 }
 
@@ -32,7 +31,7 @@ bool frames_next(struct frames *f, struct bed *b) {
     die(EXIT_INPUT, "%s", bed_reader_error(f->reader));
   }
   if (status != GSL_SUCCESS && status != GSL_EOF)
-    die(EXIT_IO, "%s", gsl_strerror(status));
+    die(EXIT_IO, "out of memory");
   return status == GSL_SUCCESS;
 }
 

@@ -4,7 +4,7 @@
 #define FRAMES_H
 
 #include <float.h>
-#include "files/bed_io.h"
+#include "files/formats.h"
 #include "program/options.h"
 
 struct frames_options {

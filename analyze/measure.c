@@ -7,7 +7,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include "geometry/box.h"
-#include "measure/radius.h"
+#include "files/radius_keys.h"
 #include "program/scene_options.h"
 
 void box_check(const struct option_list *box) {

@@ -11,6 +11,7 @@
 #include "frames.h"
 #include "measure.h"
 #include "program/options.h"
+#include "files/radius_keys.h"
 #include "measure/radius.h"
 #include "verbs.h"
 #include "geometry/volume.h"
@@ -38,7 +39,7 @@ static void set_keep(struct settings *s) {
   for (s->keep = NOMINAL; s->keep < FRACTION; s->keep++)
     if (!strcmp(text, names[s->keep]))
       return;
-  if (strncmp(text, "fraction=", 9) || !parse_double(text + 9, &s->fraction) ||
+  if (strncmp(text, "fraction=", 9) || !number_parse(text + 9, &s->fraction) ||
       !(s->fraction > 0) || (!s->sum && s->fraction >= 1))
     die(EXIT_USAGE,
         "--keep %s: expected nominal, contact-mean, touching or fraction=F "

@@ -8,7 +8,8 @@
 #include <gsl/gsl_errno.h>
 #include "program/files.h"
 #include "geometry/neighbors.h"
-#include "measure/radius.h"
+#include "files/formats.h"
+#include "files/radius_keys.h"
 #include "program/version.h"
 
 /* Settled spheres overlap, the more so the softer they are (kappa = 30: by
@@ -24,8 +25,10 @@ static void check_memory(int status) {
 static void read_scene(const struct settings *s, struct bed *b,
                        struct bed_header *h, const char **name) {
   FILE *in = input_open(s->scene_file, name);
-  struct bed_reader *reader = bed_reader_open(in, *name, s->allow_partial);
-  check_memory(reader ? GSL_SUCCESS : GSL_ENOMEM);
+  const struct bed_reader_options options = {.allow_partial = s->allow_partial,
+                                             .format = bed_format_named("bed")};
+  struct bed_reader *reader;
+  check_memory(bed_reader_open(&reader, in, *name, &options));
   struct bed frame;
   int status;
   while ((status = bed_reader_next(reader, &frame)) == GSL_SUCCESS) {

@@ -11,7 +11,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include "files/bed_io.h"
+#include "files/formats.h"
 #include "check.h"
 
 /* --- a file in memory, read to its end -------------------------------------*/
@@ -26,13 +26,23 @@ struct reading {
   FILE *in;
 };
 
+static struct bed_reader *open_bed(FILE *in, const char *name,
+                                   bool allow_partial) {
+  const struct bed_reader_options o = {.allow_partial = allow_partial,
+                                       .format = bed_format_named("bed")};
+  struct bed_reader *r;
+  if (bed_reader_open(&r, in, name, &o) != GSL_SUCCESS)
+    abort();
+  return r;
+}
+
 static struct reading read_bytes(const char *bytes, size_t size,
                                  bool allow_partial) {
   struct reading r = {.status = GSL_SUCCESS};
   /* fmemopen does not take an empty buffer */
   r.in = size ? fmemopen((void *)bytes, size, "r") : fopen("/dev/null", "r");
-  r.reader = bed_reader_open(r.in, "file", allow_partial);
-  if (!r.in || !r.reader)
+  r.reader = open_bed(r.in, "file", allow_partial);
+  if (!r.in)
     abort();
   while (r.frames < FRAMES && r.status == GSL_SUCCESS) {
     r.status = bed_reader_next(r.reader, &r.bed[r.frames]);
@@ -288,7 +298,7 @@ static const char three_frames[] = "# format=bed-1\n"
 static void test_later_frames(void) {
   struct reading r = {.status = GSL_SUCCESS};
   r.in = fmemopen((void *)three_frames, strlen(three_frames), "r");
-  r.reader = bed_reader_open(r.in, "file", false);
+  r.reader = open_bed(r.in, "file", false);
   const struct bed_header *h = bed_reader_header(r.reader);
   struct bed b;
   for (int k = 0; k < 3; k++) {
@@ -592,7 +602,7 @@ static void test_read_error(void) {
     return;
   struct bed b;
   for (int partial = 0; partial < 2; partial++) {
-    struct bed_reader *r = bed_reader_open(directory, "/", partial);
+    struct bed_reader *r = open_bed(directory, "/", partial);
     CHECK(bed_reader_next(r, &b) == GSL_EINVAL);
     CHECK(strstr(bed_reader_error(r), "read error"));
     bed_reader_close(r);

@@ -11,7 +11,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_rng.h>
-#include "files/bed_io.h"
+#include "files/formats.h"
 #include "check.h"
 #include "geometry/volume.h"
 

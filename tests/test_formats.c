@@ -22,8 +22,8 @@ static struct frames_read read_text(const char *text, size_t size,
                                     const struct bed_reader_options *o) {
   struct frames_read f = {.status = GSL_SUCCESS};
   FILE *in = fmemopen((void *)text, size, "r");
-  struct bed_reader *r = bed_reader_open_any(in, "file", o);
-  if (!in || !r)
+  struct bed_reader *r;
+  if (!in || bed_reader_open(&r, in, "file", o) != GSL_SUCCESS)
     abort();
   while (f.count < 4 && f.status == GSL_SUCCESS) {
     f.status = bed_reader_next(r, &f.bed[f.count]);

@@ -8,6 +8,7 @@
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_rng.h>
 #include "check.h"
+#include "files/radius_keys.h"
 #include "measure/radius.h"
 #include "geometry/volume.h"
 

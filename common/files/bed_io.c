@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <gsl/gsl_errno.h>
+#include "files/columns.h"
 
 /* Header */
 
@@ -75,20 +76,16 @@ void bed_header_free(struct bed_header *h) {
 
 /* Writer */
 
-enum { COLUMNS = 12, SPIN = 9 };
-
-static const char *const column_names[COLUMNS] = {
-    "id", "x", "y", "z", "r", "m", "vx", "vy", "vz", "wx", "wy", "wz"};
-
 void bed_write_frame(FILE *out, const struct bed_header *h, const struct bed *b,
                      bool spin) {
   for (size_t k = 0; k < h->count; k++)
     if (strcmp(h->at[k].name, "t") && strcmp(h->at[k].name, "status"))
       fprintf(out, "# %s=%s\n", h->at[k].name, h->at[k].value);
   fprintf(out, "# t=%.17g\n", b->t);
-  const int columns = spin ? COLUMNS : SPIN;
-  for (int c = 0; c < columns; c++)
-    fprintf(out, c ? "\t%s" : "%s", column_names[c]);
+  fputs(column_name(COLUMN_ID), out);
+  for (int c = COLUMN_X; c <= (spin ? COLUMN_WZ : COLUMN_VZ); c++)
+    if (c != COLUMN_D)
+      fprintf(out, "\t%s", column_name((enum column)c));
   fputc('\n', out);
   for (size_t i = 0; i < b->n; i++) {
     const double *x = b->x + 3 * i, *v = b->v + 3 * i, *w = b->w + 3 * i;

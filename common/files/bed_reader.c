@@ -2,81 +2,14 @@
 #define _POSIX_C_SOURCE 200809L
 #include "files/bed_reader.h"
 
+#include <assert.h>
 #include <ctype.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <gsl/gsl_errno.h>
-
-static struct bed_reader *reader_alloc(FILE *in, const char *name,
-                                       const struct bed_reader_options *o) {
-  struct bed_reader *r = calloc(1, sizeof *r);
-  if (r) {
-    r->in = in;
-    r->name = name;
-    r->options = *o;
-    r->default_radius = o->radius;
-  }
-  return r;
-}
-
-struct bed_reader *bed_reader_open(FILE *in, const char *name,
-                                   bool allow_partial) {
-  const struct bed_reader_options o = {.allow_partial = allow_partial};
-  struct bed_reader *r = reader_alloc(in, name, &o);
-  if (r)
-    r->next = read_bed;
-  return r;
-}
-
-/* By the first line that is not blank. Beds and tables are told apart by their
-   reader. */
-static int read_any(struct bed_reader *r, struct bed *b) {
-  int status;
-  do
-    status = reader_line(r);
-  while (status == GSL_SUCCESS && line_is_blank(r->line));
-  if (status != GSL_SUCCESS && status != GSL_EOF)
-    return status;
-  r->held = status == GSL_SUCCESS;
-  r->next = !r->held                 ? read_bed
-            : lammps_begins(r->line) ? read_lammps
-            : xyz_begins(r->line)    ? read_xyz
-                                     : read_bed;
-  r->may_be_table = r->table = r->held && r->next == read_bed;
-  return r->next(r, b);
-}
-
-struct bed_reader *bed_reader_open_any(FILE *in, const char *name,
-                                       const struct bed_reader_options *o) {
-  struct bed_reader *r = reader_alloc(in, name, o);
-  if (r)
-    r->next = read_any;
-  return r;
-}
-
-int bed_reader_next(struct bed_reader *r, struct bed *b) {
-  return r->next(r, b);
-}
-
-void bed_reader_close(struct bed_reader *r) {
-  if (!r)
-    return;
-  bed_header_free(&r->header);
-  free(r->line);
-  free(r->rows);
-  free(r);
-}
-
-const struct bed_header *bed_reader_header(const struct bed_reader *r) {
-  return &r->header;
-}
-
-const char *bed_reader_error(const struct bed_reader *r) {
-  return r->error;
-}
+#include "files/numbers.h"
 
 int reader_fail(struct bed_reader *r, const char *format, ...) {
   int used =
@@ -227,7 +160,7 @@ int reader_line_number(struct bed_reader *r, const char *what, double *value) {
 int reader_line_count(struct bed_reader *r, const char *what, size_t *count) {
   double x;
   if (reader_line_number(r, what, &x) != GSL_SUCCESS || !(x >= 0) ||
-      x != floor(x) || x > 9007199254740992.0)
+      !number_is_whole(x))
     return reader_fail(r, "%s is '%.40s': expected a whole number", what,
                        r->line);
   *count = (size_t)x;
@@ -236,35 +169,6 @@ int reader_line_count(struct bed_reader *r, const char *what, size_t *count) {
 
 /* Columns */
 
-static const struct {
-  const char *name; /* a column's first one is that of our own format */
-  enum column column;
-} names[] = {{"id", ID},     {"x", X},       {"y", Y},       {"z", Z},
-             {"r", R},       {"radius", R},  {"d", D},       {"diameter", D},
-             {"m", M},       {"mass", M},    {"vx", VX},     {"vy", VY},
-             {"vz", VZ},     {"wx", WX},     {"wy", WY},     {"wz", WZ},
-             {"omegax", WX}, {"omegay", WY}, {"omegaz", WZ}, {"t", T},
-             {"time", T}};
-enum { NAMES = sizeof names / sizeof *names };
-
-bool same_word(const char *field, size_t length, const char *word) {
-  return length == strlen(word) && !strncasecmp(field, word, length);
-}
-
-enum column column_named(const char *name, size_t length) {
-  for (int k = 0; k < NAMES; k++)
-    if (same_word(name, length, names[k].name))
-      return names[k].column;
-  return OTHER;
-}
-
-const char *column_name(enum column c) {
-  for (int k = 0; k < NAMES; k++)
-    if (names[k].column == c)
-      return names[k].name;
-  return "?";
-}
-
 void columns_clear(struct bed_reader *r, char separator) {
   r->separator = separator;
   r->columns_count = 0;
@@ -272,9 +176,10 @@ void columns_clear(struct bed_reader *r, char separator) {
 }
 
 int columns_add(struct bed_reader *r, enum column c) {
+  assert(c < COLUMNS && r->columns_count <= MOST_FIELDS);
   if (r->columns_count == MOST_FIELDS)
     return reader_fail(r, "more than %d columns", MOST_FIELDS);
-  if (c != OTHER && r->has[c])
+  if (c != COLUMN_OTHER && r->has[c])
     return reader_fail(r, "column '%s' stands twice", column_name(c));
   r->has[c] = true;
   r->columns[r->columns_count++] = (unsigned char)c;
@@ -282,9 +187,9 @@ int columns_add(struct bed_reader *r, enum column c) {
 }
 
 int columns_check(struct bed_reader *r) {
-  if (!r->has[X] || !r->has[Y] || !r->has[Z])
+  if (!r->has[COLUMN_X] || !r->has[COLUMN_Y] || !r->has[COLUMN_Z])
     return reader_fail(r, "columns x, y and z are expected");
-  if (!r->has[R] && !r->has[D] && r->default_radius == 0)
+  if (!r->has[COLUMN_R] && !r->has[COLUMN_D] && r->default_radius == 0)
     return reader_fail(r, "the spheres have no radius: expected a column "
                           "radius or diameter, or --radius");
   return GSL_SUCCESS;
@@ -293,18 +198,20 @@ int columns_check(struct bed_reader *r) {
 /* Rows */
 
 static int check_row(struct bed_reader *r, double *row) {
-  if (r->has[D] && !(row[D] > 0))
-    return reader_fail(r, "diameter %g: expected a number above 0", row[D]);
-  if (r->has[D] && !r->has[R])
-    row[R] = row[D] / 2;
-  if (!(row[R] > 0))
-    return reader_fail(r, "radius %g: expected a number above 0", row[R]);
-  if (!(row[M] > 0))
-    return reader_fail(r, "mass %g: expected a number above 0", row[M]);
-  if (row[ID] != floor(row[ID]) || fabs(row[ID]) > 9007199254740992.0)
-    return reader_fail(r, "id %.17g: expected a whole number", row[ID]);
+  if (r->has[COLUMN_D] && !(row[COLUMN_D] > 0))
+    return reader_fail(r, "diameter %g: expected a number above 0",
+                       row[COLUMN_D]);
+  if (r->has[COLUMN_D] && !r->has[COLUMN_R])
+    row[COLUMN_R] = row[COLUMN_D] / 2;
+  if (!(row[COLUMN_R] > 0))
+    return reader_fail(r, "radius %g: expected a number above 0",
+                       row[COLUMN_R]);
+  if (!(row[COLUMN_M] > 0))
+    return reader_fail(r, "mass %g: expected a number above 0", row[COLUMN_M]);
+  if (!number_is_whole(row[COLUMN_ID]))
+    return reader_fail(r, "id %.17g: expected a whole number", row[COLUMN_ID]);
   const double most = r->options.largest;
-  for (int c = X; most > 0 && c < T; c++)
+  for (int c = COLUMN_X; most > 0 && c < COLUMN_T; c++)
     if (!(fabs(row[c]) <= most))
       return reader_fail(r, "%s is %g: expected at most %g", column_name(c),
                          row[c], most);
@@ -312,6 +219,7 @@ static int check_row(struct bed_reader *r, double *row) {
 }
 
 int reader_row(struct bed_reader *r) {
+  assert(r->rows_count <= r->rows_size && r->columns_count);
   if (r->rows_count == r->rows_size) {
     const size_t size = 2 * r->rows_size + 256;
     void *rows = realloc(r->rows, size * sizeof *r->rows);
@@ -323,17 +231,18 @@ int reader_row(struct bed_reader *r) {
   double *row = r->rows[r->rows_count];
   for (int c = 0; c < COLUMNS; c++)
     row[c] = 0;
-  row[ID] = (double)r->rows_count;
-  row[R] = r->default_radius;
-  row[M] = 1;
+  row[COLUMN_ID] = (double)r->rows_count;
+  row[COLUMN_R] = r->default_radius;
+  row[COLUMN_M] = 1;
   const char *at = r->line;
   for (size_t k = 0; k < r->columns_count; k++) {
     size_t length = 0;
     const char *field = reader_field(r, &at, &length);
     const enum column c = r->columns[k];
-    if (c == OTHER && !field)
+    if (c == COLUMN_OTHER && !field)
       return reader_fail(r, "%zu fields: expected %zu", k, r->columns_count);
-    if (c == OTHER || (field && reader_number(r, field, length, &row[c])))
+    if (c == COLUMN_OTHER ||
+        (field && reader_number(r, field, length, &row[c])))
       continue;
     return reader_fail(r, "column %s is '%.*s': expected a finite number",
                        column_name(c), some(length), field ? field : "");
@@ -377,12 +286,12 @@ int reader_frame(struct bed_reader *r, struct bed *b, double t) {
   b->t = t;
   for (size_t i = 0; i < b->n; i++) {
     const double *row = r->rows[i];
-    b->id[i] = (long)row[ID];
-    memcpy(b->x + 3 * i, row + X, 3 * sizeof *row);
-    memcpy(b->v + 3 * i, row + VX, 3 * sizeof *row);
-    memcpy(b->w + 3 * i, row + WX, 3 * sizeof *row);
-    b->r[i] = row[R];
-    b->m[i] = row[M];
+    b->id[i] = (long)row[COLUMN_ID];
+    memcpy(b->x + 3 * i, row + COLUMN_X, 3 * sizeof *row);
+    memcpy(b->v + 3 * i, row + COLUMN_VX, 3 * sizeof *row);
+    memcpy(b->w + 3 * i, row + COLUMN_WX, 3 * sizeof *row);
+    b->r[i] = row[COLUMN_R];
+    b->m[i] = row[COLUMN_M];
   }
   r->rows_count = 0;
   r->frames++;

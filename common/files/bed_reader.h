@@ -1,14 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the readers of all formats share: lines with their numbers, messages
-   that name them, columns, rows, frames. For files/read_*.c; others use
-   bed_io.h. */
+   that name them, columns, rows, frames. It knows of no format. For
+   files/read_*.c and formats.c; others use formats.h. */
 #ifndef BED_READER_H
 #define BED_READER_H
 
-#include "files/bed_io.h"
-
-/* What a field of a row may be. D is a diameter. */
-enum column { OTHER, ID, X, Y, Z, R, D, M, VX, VY, VZ, WX, WY, WZ, T, COLUMNS };
+#include "files/columns.h"
+#include "files/formats.h"
 
 enum {
   MOST_FIELDS = 256,      /* of a row */
@@ -17,11 +15,22 @@ enum {
   BLANKS = 0              /* separator: any number of spaces and tabs */
 };
 
+/* A format: its name, what it is, whether a file that begins with this line is
+   of it, the bytes of what its reader has to remember (zeros at first), and
+   its reader, which is what bed_reader_next is. */
+struct bed_format {
+  const char *name, *help;
+  bool (*begins)(const char *line);
+  size_t state_size;
+  int (*next)(struct bed_reader *, struct bed *);
+};
+
 struct bed_reader {
   FILE *in;
   const char *name;
   struct bed_reader_options options;
-  int (*next)(struct bed_reader *, struct bed *);
+  const struct bed_format *format; /* NULL: not yet known */
+  void *state;                     /* the format's */
   struct bed_header header;
 
   char *line; /* the last one read, without its end */
@@ -40,15 +49,6 @@ struct bed_reader {
   size_t rows_count, rows_size;
   size_t frames;
   char error[512];
-
-  /* read_bed.c */
-  double t;
-  bool may_be_table, table; /* no bed but names of columns and rows */
-  bool walls_stale;         /* the next wall line begins a new set */
-  bool complete;            /* the status line was read */
-  bool named;               /* column names were read since the last frame, */
-  bool timed;               /* or a time, so there must be rows; */
-  bool apart;               /* a blank line came since that time */
 };
 
 /* Puts "name:line: ..." into the error and returns GSL_EINVAL. */
@@ -76,10 +76,6 @@ int reader_line_count(struct bed_reader *r, const char *what, size_t *count);
 void columns_clear(struct bed_reader *r, char separator);
 int columns_add(struct bed_reader *r, enum column c);
 int columns_check(struct bed_reader *r);
-/* By name, any case, with the usual synonyms; OTHER if it is none of ours. */
-enum column column_named(const char *name, size_t length);
-const char *column_name(enum column c);
-bool same_word(const char *field, size_t length, const char *word);
 
 /* Parses the line into r->rows[r->rows_count] and counts it. */
 int reader_row(struct bed_reader *r);
@@ -90,11 +86,5 @@ int reader_frame(struct bed_reader *r, struct bed *b, double t);
 /* A file of frames with stated counts that ends where it must not. With
    allow_partial its rows are the last frame. */
 int reader_cut(struct bed_reader *r, struct bed *b, double t, const char *want);
-
-int read_bed(struct bed_reader *r, struct bed *b);
-int read_lammps(struct bed_reader *r, struct bed *b);
-int read_xyz(struct bed_reader *r, struct bed *b);
-bool lammps_begins(const char *line);
-bool xyz_begins(const char *line);
 
 #endif

@@ -2,13 +2,23 @@
 /* Our own format, and tables: a line of names, then a row for each sphere.
    What begins with "# key=value" is a bed, whose columns are known and whose
    end is marked. A table may have other columns besides and just ends. */
-#include "files/bed_reader.h"
+#include "files/readers.h"
 
 #include <string.h>
 #include <gsl/gsl_errno.h>
-#include "program/options.h"
+#include "files/numbers.h"
 
 static const double default_radius = 0.1; /* settle's */
+
+struct bed_state {
+  double t;
+  bool may_be_table, table; /* no bed but names of columns and rows */
+  bool walls_stale;         /* the next wall line begins a new set */
+  bool complete;            /* the status line was read */
+  bool named;               /* column names were read since the last frame, */
+  bool timed;               /* or a time, so there must be rows; */
+  bool apart;               /* a blank line came since that time */
+};
 
 static char *trim(char *text) {
   text += strspn(text, " \t");
@@ -20,6 +30,7 @@ static char *trim(char *text) {
 
 /* "key=value", blanks around each; other comments are passed over. */
 static int read_key(struct bed_reader *r, char *text) {
+  struct bed_state *s = r->state;
   char *value = strchr(text, '=');
   if (!value)
     return GSL_SUCCESS;
@@ -32,23 +43,23 @@ static int read_key(struct bed_reader *r, char *text) {
     return reader_fail(r, "more than %d keys", MOST_KEYS);
   if (!strcmp(name, "format") && strcmp(value, "bed-1"))
     return reader_fail(r, "format=%s: expected bed-1", value);
-  if (!strcmp(name, "radius") && !parse_double(value, &r->default_radius))
+  if (!strcmp(name, "radius") && !number_parse(value, &r->default_radius))
     return reader_fail(r, "radius=%s: expected a number above 0", value);
   if (!strcmp(name, "t")) {
-    if (!parse_double(value, &r->t))
+    if (!number_parse(value, &s->t))
       return reader_fail(r, "t=%s: expected a finite number", value);
-    if (r->timed && r->apart)
+    if (s->timed && s->apart)
       return reader_fail(r, "t=%s: no spheres since the t before", value);
-    r->timed = true;
-    r->apart = false;
+    s->timed = true;
+    s->apart = false;
   }
   if (!strcmp(name, "status"))
-    r->complete = true;
+    s->complete = true;
   if (strcmp(name, "wall"))
     return bed_header_set(&r->header, name, value);
-  if (r->walls_stale)
+  if (s->walls_stale)
     bed_header_remove(&r->header, "wall");
-  r->walls_stale = false;
+  s->walls_stale = false;
   return bed_header_add(&r->header, name, value);
 }
 
@@ -67,18 +78,19 @@ static bool has_names(const struct bed_reader *r, const char *line) {
   size_t length = 0;
   for (const char *name; (name = reader_field(&as, &line, &length));)
     has[column_named(name, length)] = true;
-  return has[X] && has[Y] && has[Z];
+  return has[COLUMN_X] && has[COLUMN_Y] && has[COLUMN_Z];
 }
 
 static int read_names(struct bed_reader *r, const char *line) {
-  if (r->may_be_table && !r->columns_count)
-    r->table = !r->header.count || strpbrk(line, ",;");
-  if (r->table && !has_names(r, line))
+  struct bed_state *s = r->state;
+  if (s->may_be_table && !r->columns_count)
+    s->table = !r->header.count || strpbrk(line, ",;");
+  if (s->table && !has_names(r, line))
     return reader_fail(r, "expected a bed, a table with columns x, y and z, a "
                           "LAMMPS dump or an XYZ file");
-  columns_clear(r, r->table ? separator_of(line) : BLANKS);
+  columns_clear(r, s->table ? separator_of(line) : BLANKS);
   r->decimal_comma = r->separator == ';' || r->separator == '\t';
-  if (!r->table && r->default_radius == 0 &&
+  if (!s->table && r->default_radius == 0 &&
       !bed_header_get(&r->header, "radius"))
     r->default_radius = default_radius;
   size_t length = 0;
@@ -86,9 +98,9 @@ static int read_names(struct bed_reader *r, const char *line) {
   for (const char *name;
        status == GSL_SUCCESS && (name = reader_field(r, &line, &length));) {
     const enum column c = column_named(name, length);
-    if (!r->table &&
-        (c == OTHER || c == D || c == T || strlen(column_name(c)) != length ||
-         strncmp(name, column_name(c), length)))
+    if (!s->table && (c == COLUMN_OTHER || c == COLUMN_D || c == COLUMN_T ||
+                      strlen(column_name(c)) != length ||
+                      strncmp(name, column_name(c), length)))
       return reader_fail(r,
                          "unknown column '%.*s': expected id x y z r m vx vy "
                          "vz wx wy wz",
@@ -97,28 +109,30 @@ static int read_names(struct bed_reader *r, const char *line) {
   }
   if (r->separator != BLANKS && !length && r->columns_count > 1)
     r->columns_count--; /* a separator at the end of the line */
-  r->named = true;
+  s->named = true;
   return status == GSL_SUCCESS ? columns_check(r) : status;
 }
 
 static int finish_frame(struct bed_reader *r, struct bed *b) {
-  if (r->has[T]) {
-    const double t = r->rows[0][T];
-    if (r->frames && t < r->t)
+  struct bed_state *s = r->state;
+  if (r->has[COLUMN_T]) {
+    const double t = r->rows[0][COLUMN_T];
+    if (r->frames && t < s->t)
       return reader_fail(r, "time %g after %g: expected rows sorted by time", t,
-                         r->t);
-    r->t = t;
+                         s->t);
+    s->t = t;
   }
-  r->walls_stale = true;
-  r->named = r->timed = false;
-  return reader_frame(r, b, r->t);
+  s->walls_stale = true;
+  s->named = s->timed = false;
+  return reader_frame(r, b, s->t);
 }
 
 /* A row of a table with a column of times; one of another time is the next
    frame's. */
 static bool begins_frame(struct bed_reader *r) {
   const size_t n = r->rows_count;
-  if (!r->has[T] || n < 2 || r->rows[n - 1][T] == r->rows[n - 2][T])
+  if (!r->has[COLUMN_T] || n < 2 ||
+      r->rows[n - 1][COLUMN_T] == r->rows[n - 2][COLUMN_T])
     return false;
   r->rows_count--;
   r->held = true;
@@ -127,11 +141,12 @@ static bool begins_frame(struct bed_reader *r) {
 
 /* What stands at the end of the file decides whether it is whole. */
 static int finish_file(struct bed_reader *r, struct bed *b) {
+  const struct bed_state *s = r->state;
   if (!r->options.allow_partial) {
-    if (!r->complete && !r->table)
+    if (!s->complete && !s->table)
       return reader_fail(
           r, "the file ends without '# status=ok': it is cut short");
-    if (r->complete && strcmp(bed_header_get(&r->header, "status"), "ok"))
+    if (s->complete && strcmp(bed_header_get(&r->header, "status"), "ok"))
       return reader_fail(r, "the file is marked status=%s",
                          bed_header_get(&r->header, "status"));
   }
@@ -139,32 +154,34 @@ static int finish_file(struct bed_reader *r, struct bed *b) {
     return finish_frame(r, b);
   if (!r->frames)
     return reader_fail(r, "no spheres");
-  if (!r->options.allow_partial && (r->named || r->timed))
+  if (!r->options.allow_partial && (s->named || s->timed))
     return reader_fail(r, "no spheres in the last frame");
   return GSL_EOF;
 }
 
 static bool begins_row(const struct bed_reader *r, const char *line) {
-  if (r->table)
+  const struct bed_state *s = r->state;
+  if (s->table)
     return r->columns_count && (r->rows_count || !has_names(r, line));
   return strchr("0123456789+-.", *line) || !strncmp(line, "nan", 3) ||
          !strncmp(line, "inf", 3);
 }
 
-int read_bed(struct bed_reader *r, struct bed *b) {
+static int next_bed(struct bed_reader *r, struct bed *b) {
+  struct bed_state *s = r->state;
   int status;
   while ((status = reader_line(r)) == GSL_SUCCESS) {
     char *line = r->line + strspn(r->line, "\t ");
-    if (!*line || (r->table && !line[strspn(line, " \t,;")])) {
+    if (!*line || (s->table && !line[strspn(line, " \t,;")])) {
       if (r->rows_count)
         return finish_frame(r, b);
-      if (r->named)
+      if (s->named)
         return reader_fail(r, "no spheres in the frame that ends here");
-      r->apart = true;
-    } else if (r->complete) {
+      s->apart = true;
+    } else if (s->complete) {
       return reader_fail(r, "more after the line of the status");
     } else if (*line == '#') {
-      if (r->may_be_table && !r->columns_count && has_names(r, line + 1))
+      if (s->may_be_table && !r->columns_count && has_names(r, line + 1))
         status = read_names(r, line + 1);
       else
         status = read_key(r, line + 1);
@@ -183,3 +200,27 @@ int read_bed(struct bed_reader *r, struct bed *b) {
   }
   return status == GSL_EOF ? finish_file(r, b) : status;
 }
+
+/* A table's column names may stand behind a #, as a bed's keys do. */
+static int next_table(struct bed_reader *r, struct bed *b) {
+  struct bed_state *s = r->state;
+  if (!s->may_be_table)
+    s->may_be_table = s->table = true;
+  return next_bed(r, b);
+}
+
+static bool never(const char *line) {
+  (void)line;
+  return false;
+}
+
+static bool always(const char *line) {
+  (void)line;
+  return true;
+}
+
+const struct bed_format format_bed = {"bed", "our own", never,
+                                      sizeof(struct bed_state), next_bed};
+const struct bed_format format_table = {
+    "table", "a line of column names, a row for each sphere", always,
+    sizeof(struct bed_state), next_table};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Text dumps of LAMMPS and LIGGGHTS: frames of items, each a line "ITEM: ..."
    and what belongs to it. docs.lammps.org/dump.html, Howto_triclinic.html. */
-#include "files/bed_reader.h"
+#include "files/readers.h"
 
 #include <math.h>
 #include <string.h>
@@ -16,14 +16,14 @@ struct dump {
   double origin[3], size[3], xy, xz, yz;
 };
 
-bool lammps_begins(const char *line) {
+static bool begins_item(const char *line) {
   return !strncmp(line, item, strlen(item));
 }
 
 /* The line after an item's; it may not be missing. */
 static int next_line(struct bed_reader *r) {
   const int status = reader_line(r);
-  if (status == GSL_SUCCESS && lammps_begins(r->line))
+  if (status == GSL_SUCCESS && begins_item(r->line))
     return reader_fail(r, "expected what belongs to the ITEM: before");
   return status;
 }
@@ -97,18 +97,18 @@ static int read_names(struct bed_reader *r, struct dump *d, const char *names) {
   int status = GSL_SUCCESS;
   for (const char *name;
        status == GSL_SUCCESS && (name = reader_field(r, &names, &length));) {
-    enum column c = OTHER;
+    enum column c = COLUMN_OTHER;
     if (length > 1 + strlen(endings[e]) || !strchr("xyz", *name))
       c = column_named(name, length);
     else if (same_word(name + 1, length - 1, endings[e]))
-      c = *name == 'x' ? X : *name == 'y' ? Y : Z;
-    status = columns_add(r, c == T ? OTHER : c);
+      c = *name == 'x' ? COLUMN_X : *name == 'y' ? COLUMN_Y : COLUMN_Z;
+    status = columns_add(r, c == COLUMN_T ? COLUMN_OTHER : c);
   }
   return status == GSL_SUCCESS ? columns_check(r) : status;
 }
 
 static int unscale(struct bed_reader *r, const struct dump *d) {
-  double *x = r->rows[r->rows_count - 1] + X;
+  double *x = r->rows[r->rows_count - 1] + COLUMN_X;
   const double s[3] = {x[0], x[1], x[2]};
   x[0] = d->origin[0] + s[0] * d->size[0] + s[1] * d->xy + s[2] * d->xz;
   x[1] = d->origin[1] + s[1] * d->size[1] + s[2] * d->yz;
@@ -126,7 +126,7 @@ static int read_atoms(struct bed_reader *r, const struct dump *d) {
     int status = reader_line(r);
     if (status != GSL_SUCCESS)
       return status;
-    if (lammps_begins(r->line))
+    if (begins_item(r->line))
       return reader_fail(r, "expected sphere %zu of %zu", r->rows_count + 1,
                          d->count);
     status = reader_row(r);
@@ -166,13 +166,13 @@ static int read_item(struct bed_reader *r, struct dump *d, const char *name) {
   return status;
 }
 
-int read_lammps(struct bed_reader *r, struct bed *b) {
+static int next_dump(struct bed_reader *r, struct bed *b) {
   struct dump d = {0};
   int status;
   while ((status = reader_line(r)) == GSL_SUCCESS) {
     if (line_is_blank(r->line))
       continue;
-    if (!lammps_begins(r->line))
+    if (!begins_item(r->line))
       return reader_fail(r, "'%.40s': expected a line 'ITEM: ...'%s", r->line,
                          r->frames ? ", or more atoms announced" : "");
     d.begun = true;
@@ -197,3 +197,6 @@ int read_lammps(struct bed_reader *r, struct bed *b) {
   return d.begun || !r->frames ? reader_cut(r, b, d.t, "more of a frame")
                                : GSL_EOF;
 }
+
+const struct bed_format format_lammps = {
+    "lammps", "text dump of LAMMPS and LIGGGHTS", begins_item, 1, next_dump};

@@ -2,7 +2,7 @@
 /* XYZ: a count, a comment, and a row for each sphere; in the extended form the
    comment says what the columns are (Properties=species:S:1:pos:R:3:...), and
    the time. github.com/libAtoms/extxyz describes it. */
-#include "files/bed_reader.h"
+#include "files/readers.h"
 
 #include <string.h>
 #include <gsl/gsl_errno.h>
@@ -14,16 +14,16 @@ static const struct {
   size_t count;
 } properties[] = {
     /* clang-format off */
-    {"pos", X, 3}, {"position", X, 3}, {"positions", X, 3},
-    {"radius", R, 1}, {"radii", R, 1}, {"diameter", D, 1}, {"diameters", D, 1},
-    {"mass", M, 1}, {"masses", M, 1},
-    {"velo", VX, 3}, {"vel", VX, 3}, {"velocity", VX, 3}, {"velocities", VX, 3},
-    {"omega", WX, 3}, {"spin", WX, 3}, {"angular_velocity", WX, 3},
-    {"angular_velocities", WX, 3}
+    {"pos", COLUMN_X, 3}, {"position", COLUMN_X, 3}, {"positions", COLUMN_X, 3},
+    {"radius", COLUMN_R, 1}, {"radii", COLUMN_R, 1}, {"diameter", COLUMN_D, 1}, {"diameters", COLUMN_D, 1},
+    {"mass", COLUMN_M, 1}, {"masses", COLUMN_M, 1},
+    {"velo", COLUMN_VX, 3}, {"vel", COLUMN_VX, 3}, {"velocity", COLUMN_VX, 3}, {"velocities", COLUMN_VX, 3},
+    {"omega", COLUMN_WX, 3}, {"spin", COLUMN_WX, 3}, {"angular_velocity", COLUMN_WX, 3},
+    {"angular_velocities", COLUMN_WX, 3}
     /* clang-format on */
 };
 
-bool xyz_begins(const char *line) {
+static bool begins_count(const char *line) {
   line += strspn(line, " \t");
   const size_t digits = strspn(line, "0123456789");
   return digits && line_is_blank(line + digits);
@@ -83,18 +83,18 @@ static int read_properties(struct bed_reader *r, const char *at,
         !(count <= MOST_FIELDS) || count != (double)(size_t)count)
       return reader_fail(r, "Properties: expected name:type:count at '%.*s'",
                          end - name > 40 ? 40 : (int)(end - name), name);
-    enum column first = OTHER;
+    enum column first = COLUMN_OTHER;
     for (size_t k = 0; k < sizeof properties / sizeof *properties; k++)
       if (same_word(name, name_length, properties[k].name) &&
           (size_t)count == properties[k].count)
         first = properties[k].first;
-    if (first == OTHER && count == 1)
+    if (first == COLUMN_OTHER && count == 1)
       first = column_named(name, name_length);
-    if (first == T)
-      first = OTHER; /* a frame has one time */
+    if (first == COLUMN_T)
+      first = COLUMN_OTHER; /* a frame has one time */
     for (size_t k = 0; k < (size_t)count; k++) {
-      const int status =
-          columns_add(r, first == OTHER ? OTHER : (enum column)(first + k));
+      const int status = columns_add(
+          r, first == COLUMN_OTHER ? COLUMN_OTHER : (enum column)(first + k));
       if (status != GSL_SUCCESS)
         return status;
     }
@@ -112,7 +112,8 @@ static int read_comment(struct bed_reader *r, double *t) {
   if (extended) {
     status = read_properties(r, value, length);
   } else {
-    static const enum column plain[] = {OTHER, X, Y, Z};
+    static const enum column plain[] = {COLUMN_OTHER, COLUMN_X, COLUMN_Y,
+                                        COLUMN_Z};
     for (int k = 0; k < 4; k++)
       status = columns_add(r, plain[k]);
   }
@@ -136,7 +137,7 @@ static int read_comment(struct bed_reader *r, double *t) {
   return GSL_SUCCESS;
 }
 
-int read_xyz(struct bed_reader *r, struct bed *b) {
+static int next_xyz(struct bed_reader *r, struct bed *b) {
   double t = (double)r->frames;
   size_t count;
   int status;
@@ -146,7 +147,7 @@ int read_xyz(struct bed_reader *r, struct bed *b) {
   if (status != GSL_SUCCESS) /* the end, but of what came before */
     return status;
   columns_clear(r, BLANKS);
-  if (!xyz_begins(r->line))
+  if (!begins_count(r->line))
     return reader_fail(r, "'%.40s': expected the number of atoms", r->line);
   status = reader_line_count(r, "the number of atoms", &count);
   if (status == GSL_SUCCESS)
@@ -164,3 +165,6 @@ int read_xyz(struct bed_reader *r, struct bed *b) {
   }
   return status == GSL_SUCCESS ? reader_frame(r, b, t) : status;
 }
+
+const struct bed_format format_xyz = {"xyz", "XYZ plain and extended",
+                                      begins_count, 1, next_xyz};

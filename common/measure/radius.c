@@ -8,7 +8,6 @@
 #include <gsl/gsl_roots.h>
 #include "geometry/box.h"
 #include "geometry/neighbors.h"
-#include "program/options.h"
 #include "geometry/vec3.h"
 #include "geometry/volume.h"
 
@@ -173,35 +172,4 @@ done:
     gsl_root_fsolver_free(solver);
   free(t.radii);
   return t.status;
-}
-
-static const char dynamics_key[] = "radius_dynamics", why_key[] = "radius_keep";
-
-int radius_rewrite(struct bed *b, struct bed_header *h, double r,
-                   const char *why) {
-  char text[32];
-  if (!why) {
-    bed_header_remove(h, dynamics_key);
-    bed_header_remove(h, why_key);
-  } else {
-    if (!bed_header_get(h, dynamics_key) && b->n) {
-      format_double(b->r[0], text, sizeof text);
-      if (bed_header_set(h, dynamics_key, text) != GSL_SUCCESS)
-        return GSL_ENOMEM;
-    }
-    if (bed_header_set(h, why_key, why) != GSL_SUCCESS)
-      return GSL_ENOMEM;
-  }
-  for (size_t i = 0; i < b->n; i++)
-    b->r[i] = r;
-  format_double(r, text, sizeof text);
-  return bed_header_set(h, "radius", text);
-}
-
-double radius_dynamics(const struct bed_header *h) {
-  const char *text = bed_header_get(h, dynamics_key);
-  double r;
-  if (!text)
-    return 0;
-  return parse_double(text, &r) && r > 0 ? r : -1;
 }

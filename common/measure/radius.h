@@ -9,7 +9,6 @@
 #define RADIUS_H
 
 #include <stdbool.h>
-#include "files/bed_io.h"
 #include "model/scene.h"
 
 /* Overlaps at a radius, in diameters; a wall's as a pair's. Touching counts. */
@@ -37,15 +36,5 @@ int radius_contact_mean(const struct scene *s, size_t n, const double *x,
    GSL_EDOM if there is no such radius. */
 int radius_of_fraction(size_t n, const double *x, const double box[6],
                        double fraction, bool sum, double *r);
-
-/* Gives a bed another radius and notes in its header's keys: radius; what the
-   dynamics had, radius_dynamics; and why, radius_keep. why NULL: the dynamics'
-   radius is back, and neither is needed. GSL_ENOMEM. */
-int radius_rewrite(struct bed *b, struct bed_header *h, double r,
-                   const char *why);
-
-/* The radius of the dynamics, if the bed was rewritten. 0: it was not;
-   negative: the key holds something else than a number above 0. */
-double radius_dynamics(const struct bed_header *h);
 
 #endif

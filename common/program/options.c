@@ -13,6 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 #include <gsl/gsl_errno.h>
+#include "files/numbers.h"
 #include "program/version.h"
 
 static const char *program_name = "?"; /* set once, for messages */
@@ -36,17 +37,6 @@ void warn(const char *format, ...) {
   va_start(args, format);
   message(format, args);
   va_end(args);
-}
-
-bool parse_double(const char *text, double *value) {
-  char *end;
-  errno = 0;
-  const double x = strtod(text, &end);
-  /* strtod reports underflow as ERANGE too; a tiny number is fine */
-  if (end == text || *end || !isfinite(x) || strpbrk(text, " \t"))
-    return false;
-  *value = x;
-  return true;
 }
 
 static const char *expected(const char *format, ...) {
@@ -87,7 +77,7 @@ static bool parse_list(const char *text, struct option_list *list) {
       return false;
     memcpy(word, text, length);
     word[length] = 0;
-    if (!parse_double(word, &list->at[list->count++]))
+    if (!number_parse(word, &list->at[list->count++]))
       return false;
     text += length;
     text += strspn(text, " \t");
@@ -120,12 +110,12 @@ const char *option_set(struct option_spec *o, const char *text) {
     *(bool *)o->value = true;
     return NULL;
   case OPTION_DOUBLE:
-    if (!parse_double(text, &x) || !in_range(o, x))
+    if (!number_parse(text, &x) || !in_range(o, x))
       return range_text(o);
     *(double *)o->value = x;
     return NULL;
   case OPTION_SIZE:
-    if (!parse_double(text, &x) || !in_range(o, x) || x != floor(x))
+    if (!number_parse(text, &x) || !in_range(o, x) || x != floor(x))
       return range_text(o);
     *(size_t *)o->value = (size_t)x;
     return NULL;
@@ -157,22 +147,16 @@ struct option_spec *option_find(struct option_spec *options, const char *name) {
   return NULL;
 }
 
-void format_double(double x, char *text, size_t size) {
-  for (int digits = 6; digits <= 17; digits++) {
-    snprintf(text, size, "%.*g", digits, x);
-    if (strtod(text, NULL) == x)
-      return;
-  }
-}
-
 void option_text(const struct option_spec *o, char *text, size_t size) {
+  char number[NUMBER_SIZE];
   text[0] = 0;
   switch (o->type) {
   case OPTION_FLAG:
     snprintf(text, size, "%s", *(const bool *)o->value ? "yes" : "no");
     break;
   case OPTION_DOUBLE:
-    format_double(*(const double *)o->value, text, size);
+    number_format(*(const double *)o->value, number);
+    snprintf(text, size, "%s", number);
     break;
   case OPTION_SIZE:
     snprintf(text, size, "%zu", *(const size_t *)o->value);
@@ -185,9 +169,8 @@ void option_text(const struct option_spec *o, char *text, size_t size) {
     if (o->each)
       break;
     const struct option_list *list = o->value;
-    char number[32];
     for (size_t i = 0; i < list->count; i++) {
-      format_double(list->at[i], number, sizeof number);
+      number_format(list->at[i], number);
       const size_t used = strlen(text);
       snprintf(text + used, size - used, i ? ",%s" : "%s", number);
     }

@@ -6,6 +6,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include "files/numbers.h"
 
 enum exit_code {
   EXIT_DONE = 0,
@@ -43,8 +44,8 @@ struct option_spec {
   void *context;
 };
 
-/* The largest count a double holds exactly. */
-#define OPTION_MANY 9007199254740992.0
+/* No limit: the largest count that an option can hold. */
+#define OPTION_MANY NUMBER_MOST_WHOLE
 
 struct program {
   const char *name, *summary, *usage, *example;
@@ -67,15 +68,8 @@ int options_parse(const struct program *p, int argc, char **argv);
 const char *option_set(struct option_spec *o, const char *text);
 struct option_spec *option_find(struct option_spec *options, const char *name);
 
-/* The value as text, as option_set reads it; numbers by format_double. */
+/* The value as text, as option_set reads it; numbers by number_format. */
 void option_text(const struct option_spec *o, char *text, size_t size);
-
-/* Parses a whole string as a finite number. */
-bool parse_double(const char *text, double *value);
-
-/* The fewest digits that read back as the same number: 0.4, not
-   0.40000000000000002 as %.17g has it. text: 32 bytes are enough. */
-void format_double(double x, char *text, size_t size);
 
 /* Flushes standard output; exits with EXIT_IO if anything was not written. */
 void finish_output(void);
