@@ -72,7 +72,7 @@ $(B)/$(1): $(patsubst %.c,$(O)/%.o,$(wildcard $(1)/*.c)) $(LIBRARY)
 endef
 $(foreach p,$(PROGRAMS),$(eval $(call program_rule,$(p))))
 
-$(O)/analyze/picture.o: ALL_CFLAGS += -DPLOTS_SOURCE='"$(CURDIR)/plots"'
+$(O)/analyze/picture.o: ALL_CFLAGS += -DPLOTS_SOURCE='"$(CURDIR)/plots/draw"'
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 
 # Tests: every tests/test_*.c is a program, every tests/test_*.sh a script; each
@@ -120,14 +120,14 @@ demo: all ## settle 200 spheres, print the packing fraction, draw the bed
 	$(B)/settle --seed 1 > $(B)/demo.tsv.partial
 	@mv $(B)/demo.tsv.partial $(B)/demo.tsv
 	$(B)/analyze $(B)/demo.tsv
-	gnuplot -c plots/bed.gp $(B)/demo.tsv $(B)/demo.png
+	gnuplot -c plots/draw/bed.gp $(B)/demo.tsv $(B)/demo.png
 	@echo "the bed: $(B)/demo.tsv, its picture: $(B)/demo.png"
 
 install: all ## copy the programs to PREFIX/bin, what they draw with to PREFIX/share
 	install -d $(DESTDIR)$(PREFIX)/bin
 	install $(B)/bounce $(B)/settle $(B)/analyze $(DESTDIR)$(PREFIX)/bin
 	install -d $(DESTDIR)$(PREFIX)/share/dem/plots
-	install -m 644 plots/{style,balls,bed,movie}.gp \
+	install -m 644 plots/style.gp plots/draw/{balls,bed,movie}.gp \
 	  $(DESTDIR)$(PREFIX)/share/dem/plots
 
 clean: ## remove everything that was made
@@ -137,11 +137,6 @@ help: ## this list
 	@sed -n 's/^\([a-zA-Z0-9.-]*\):.*## \(.*\)/\1\t\2/p' $(MAKEFILE_LIST) | \
 	  expand -t 16
 
-include plots/figures.mk
-include plots/structure.mk
-include plots/analysis.mk
-include bench/bench.mk
-include docs/pages.mk
-include $(wildcard precision/*.mk stability/*.mk)
+include plots/rules.mk plots/captions.mk
 
 .PHONY: all check fuzz deps demo install clean help

@@ -150,7 +150,7 @@ void picture_measure(struct picture *p, const struct bed *b,
   free(value);
 }
 
-/* The viewer's axes, as plots/balls.gp has them: rightwards, upwards, to the
+/* The viewer's axes, as plots/draw/balls.gp has them: rightwards, upwards, to the
    viewer. */
 static void view_axes(const struct picture *p, double axes[3][3]) {
   const double turn = p->view.at[0] * M_PI / 180,

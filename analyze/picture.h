@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Pictures of beds by gnuplot (plots/bed.gp): what draw and movie share. All
+/* Pictures of beds by gnuplot (plots/draw/bed.gp): what draw and movie share. All
    exit with one line on an error; the scratch directory goes when the program
    does. */
 #ifndef PICTURE_H

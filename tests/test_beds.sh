@@ -62,7 +62,7 @@ for seed in 1 2 3; do
   } >"$T/$seed.tsv"
 done
 mv "$T/2.tsv" "$T/timed/two.tsv"
-awk -f precision/settling.awk "$T"/timed/*.tsv "$T"/[13].tsv >"$T/out"
+awk -f plots/precision/settling.awk "$T"/timed/*.tsv "$T"/[13].tsv >"$T/out"
 is_rkc='c("method") == "rkc"'
 within 'settling.awk: mean' "$(cell "$T/out" "$is_rkc" difference)" 0.003333 \
   0.003334
@@ -73,7 +73,7 @@ within 'settling.awk: largest' "$(cell "$T/out" "$is_rkc" largest)" 0.006 0.006
 within 'settling.awk: CPU of the timed run alone' \
   "$(cell "$T/out" "$is_rkc" cpu_seconds)" 2 2
 sed -i 's/\tok\t/\tgave_up\t/' "$T/1.tsv"
-awk -f precision/settling.awk "$T"/timed/*.tsv "$T"/[13].tsv >"$T/out"
+awk -f plots/precision/settling.awk "$T"/timed/*.tsv "$T"/[13].tsv >"$T/out"
 check 'settling.awk: one failure fails all' test \
   "$(cell "$T/out" "$is_rkc" status)" = failed
 
@@ -102,7 +102,7 @@ eight() {
 eight --method rk8pd --tol 1e-11 >"$T/sharp.bed"
 eight --method merson --tol 1e-3 >"$T/merson.bed"
 within 'error of position by settle over that by precision' "$(awk -f \
-  precision/horizon.awk "$T/sharp.bed" "$T/merson.bed" | awk -F '\t' \
+  plots/precision/horizon.awk "$T/sharp.bed" "$T/merson.bed" | awk -F '\t' \
   -v e="$(trajectory trajectory-8 merson 'c("tol") == "0.001"' error_position)" \
   'NR == 2 { print $4 / e }')" 0.98 1.02
 # with friction stability pays for Merson's accuracy: better at equal cost
@@ -135,9 +135,9 @@ outcome() { # LIMIT SETTINGS...: of one cell, with rkc's bed to compare with
   shift
   for s in "$@"; do
     k=$((k + 1))
-    LIMIT=$limit B=$B precision/bed.sh "$s" >"$T/row$k.tsv" || return
+    LIMIT=$limit B=$B plots/beds/bed.sh "$s" >"$T/row$k.tsv" || return
   done
-  eval "stability/map.sh $(printf "'$T/row%d.tsv' " $(seq $k))" |
+  eval "plots/stability/map.sh $(printf "'$T/row%d.tsv' " $(seq $k))" |
     awk 'NR == 2 { print $4 }'
 }
 small=count-32/time-3/frames-17/kappa-300/model-basic
@@ -170,7 +170,7 @@ done
 printf '%s\n' '# f0=10' '# kappa=150' '# friction=0.2' '# vmin=0.01' \
   '# lmax=0.1' $'id\tx\ty\tz\tr\tm' $'0\t0\t0\t0\t0.1\t1' \
   $'1\t0.19\t0\t0\t0.1\t1' '# status=ok' >"$T/two.bed"
-awk -f stability/slip.awk "$T/two.bed" >"$T/two.tsv"
+awk -f plots/stability/slip.awk "$T/two.bed" >"$T/two.tsv"
 within 'slip: the last stable step' "$(awk '$2 == 0 { h = $1 }
   END { print h }' "$T/two.tsv")" 1.89e-4 2.125e-4
 within 'slip: the first unstable one' "$(awk '$2 == 1 { print $1; exit }' \

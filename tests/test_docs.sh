@@ -11,7 +11,7 @@ report() { # NAME STATUS
 included=0
 pages="README.md CONTRIBUTING.md docs/*.md"
 for page in $pages; do
-  awk -f docs/include.awk "$page" | cmp -s - "$page"
+  awk -f plots/captions.awk "$page" | cmp -s - "$page"
   report "$page: captions are not those of docs/ (make readme)" $?
   n=$(grep -c '^<!-- docs/' "$page")
   included=$((included + n))
@@ -25,6 +25,6 @@ done
 ((included > 0))
 report 'no page includes a caption' $?
 printf '<!-- docs/none.md -->\n<!-- end -->\n' > "$T/page"
-! awk -f docs/include.awk "$T/page" > /dev/null 2>&1
+! awk -f plots/captions.awk "$T/page" > /dev/null 2>&1
 report 'a missing caption passes' $?
 check_done

@@ -109,7 +109,7 @@ check 'a line torn apart' test "$(words toda-open --method verlet \
   --step-rung 0.05 --step-rung 1e-4)" = 'lost ok '
 "$B/precision" bounce --method merson --step-rung 3 --step-rung 1e-4 \
   --step-rung 1e-5 >"$T/failed.tsv"
-gnuplot -c plots/precision.gp "$T/failed.tsv" "$T/failed.svg" title step \
+gnuplot -c plots/precision/precision.gp "$T/failed.tsv" "$T/failed.svg" title step \
   error_time step error
 check 'a failure is drawn' grep -q 'failed' "$T/failed.svg"
 

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Map of outcomes: what became of beds, by tolerance or step and stiffness, a
+# panel a variant and method. A cell has the outcome's colour and letter.
+#   gnuplot -c plots/stability/map.gp IN OUT
+# IN: rows by map.sh.
+set loadpath system("dirname '".ARG0."'")."/.."
+key_rows = 4
+height = 1180
+columns = "panel setting kappa outcome"
+call "style.gp" "stability/map.gp IN OUT" ARG2 ARG1
+
+outcomes = "settled denser looser jitter gave_up tunnelled stopped"
+letters = "· + − J G W X"
+titles = "'· settled' '+ denser bed' '− looser bed' 'J jitter' 'G gave up' ". \
+  "'W through a wall' 'X blew up'"
+colours = "#CDE8DD ".orange." #F5DFA8 ".purple." ".sky." ".blue." ".vermillion
+panels = "basic-merson basic-merson-free basic-merson-short basic-rkc ". \
+  "basic-rkc-free basic-verlet rotation-merson rotation-rkc rotation-verlet"
+headings = "'Merson' 'Merson, no cap' 'Merson, l_{max} 0.1 m' 'RKC' ". \
+  "'RKC, no cap' 'Verlet' 'Merson' 'RKC' 'Verlet'"
+below(p) = p < 4 || p == 7 ? "{/:Italic δ} (m/s^2)" : p % 3 == 0 ? \
+  "step (s)" : "tolerance (m/s)"
+
+# the values of a column, in order; all of them or a panel's
+values(name, panel, order) = system(sprintf("awk -F'\\t' 'NR == 1 { for ". \
+  "(k = 1; k <= NF; k++) at[$k] = k; next } (p == \"\" || $at[\"panel\"] ". \
+  "== p) && !seen[$at[c]]++ { print $at[c] }' p='%s' c='%s' '%s' | ". \
+  "LC_ALL=C sort -g%s | tr '\\n' ' '", panel, name, ARG1, order))
+place(list, s) = strstrt(" ".list, " ".s." ") == 0 ? NaN : \
+  words(list[:strstrt(" ".list, " ".s." ") - 1]) + 1
+all = values("panel", "", "")
+is(o) = strcol("panel") eq name && strcol("outcome") eq word(outcomes, o) ? \
+  place(settings, strcol("setting")) : NaN
+seen(o) = strstrt(" ".values("outcome", name, "")." ", \
+  " ".word(outcomes, o)." ") > 0
+kappas = values("kappa", "", "")
+
+set border linewidth thin
+unset grid
+unset xtics
+unset ytics
+set yrange [0.5:words(kappas) + 0.5]
+across = 0.262
+high = 0.2
+set multiplot
+do for [p=1:9] {
+  name = word(panels, p)
+  settings = values("setting", name, "r")
+  i = (p - 1)%3
+  j = (p - 1)/3
+  left = 0.16 + i*(across + 0.014)
+  upper = 0.955 - j*(high + 0.088)
+  set lmargin at screen left
+  set rmargin at screen left + across
+  set tmargin at screen upper
+  set bmargin at screen upper - high
+  set xrange [0.5:(words(settings) > 0 ? words(settings) : 1) + 0.5]
+  set title word(headings, p) offset 0,-0.7
+  unset label
+  do for [k=1:words(settings)] {
+    set label word(settings, k) at k,graph -0.06 center font ",13"
+  }
+  set label below(p) at graph 0.5,-0.16 center
+  if (i == 0) {
+    do for [k=1:words(kappas)] {
+      set label word(kappas, k) at graph -0.03,first k right
+    }
+    set label "{/:Italic κ} (1/m), ".(j < 2 ? "no friction" : "full model") \
+      at screen 0.03,screen upper - high/2 center rotate by 90
+  }
+  there = ""
+  do for [o=1:words(outcomes)] {
+    there = there.(seen(o) ? sprintf(" %d", o) : "")
+  }
+  if (words(there) > 0) {
+    plot for [o in there] ARG1 using (is(int(o))): \
+        (place(kappas, strcol("kappa"))):(0.47):(0.47) with boxxyerror \
+        fillstyle solid 1 noborder linecolor rgb word(colours, int(o)) \
+        notitle, \
+      for [o in there] ARG1 using (is(int(o))): \
+        (place(kappas, strcol("kappa"))):(word(letters, int(o))) with labels \
+        notitle, \
+      for [o=1:(p == 1 ? 7 : 0)] keyentry with boxes \
+        fillstyle solid 1 noborder linecolor rgb word(colours, o) \
+        title word(titles, o)
+  }
+  unset key
+}
+unset multiplot
