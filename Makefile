@@ -1,41 +1,43 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# make help lists the targets.
-SHELL := /bin/bash
+# make help lists the targets. Works with make 3.81 and later; there, a failure
+# in the middle of a pipe goes unseen, as .SHELLFLAGS is of 3.82.
+SHELL := bash
 .SHELLFLAGS := -o pipefail -c
 .DELETE_ON_ERROR:
 .SUFFIXES:
 
-CC ?= gcc
+# What may be set: CC AR CPPFLAGS CFLAGS LDFLAGS; OPENMP= builds without
+# threads; GSL_CFLAGS and GSL_LIBS for a GSL that neither pkg-config nor
+# gsl-config tells of; B, where products go; PREFIX and DESTDIR of install.
+# make has a CC of its own, cc, which is whatever the system prefers; the figures
+# were made by gcc.
+ifeq ($(origin CC),default)
+CC := $(if $(shell command -v gcc),gcc,cc)
+endif
 CFLAGS ?= -O3 -g
 WARNINGS := -Wall -Wextra
 INCLUDES := -Icommon
-# GSL elsewhere than the compiler looks: GSL_CFLAGS=-I... GSL_LIBS='-L... ...'
-GSL_CFLAGS ?=
-GSL_LIBS ?= -lgsl -lgslcblas -lm
-OPENMP ?= -fopenmp
-ALL_CFLAGS = -std=c11 $(WARNINGS) $(INCLUDES) $(GSL_CFLAGS) $(OPENMP) $(CFLAGS)
 B := build
 O := $(B)/obj
 PREFIX ?= /usr/local
 
 all: $(B)/bounce $(B)/settle $(B)/analyze ## build the programs
 
+# What the compiler, its target and the libraries offer.
+ifneq ($(filter-out clean help deps,$(or $(MAKECMDGOALS),all)),)
+$(shell CC='$(CC)' CPPFLAGS='$(CPPFLAGS)' CFLAGS='$(CFLAGS)' \
+  LDFLAGS='$(LDFLAGS)' common/platform/probe.sh $(B)/config.mk)
+include $(B)/config.mk
+PROBED := yes
+endif
+GSL_CFLAGS ?= $(FOUND_GSL_CFLAGS)
+GSL_LIBS ?= $(FOUND_GSL_LIBS)
+OPENMP ?= $(FOUND_OPENMP)
+ALL_CFLAGS = -std=c11 $(WARNINGS) $(FOUND_QUIET) $(INCLUDES) $(GSL_CFLAGS) \
+  $(or $(OPENMP),$(FOUND_SIMD)) $(CPPFLAGS) $(CFLAGS)
+
 # Kernel: once per instruction set. NaN and infinity must stay what they are.
-ARCH := $(shell uname -m)
-KERNEL_CFLAGS := -fno-math-errno -fno-trapping-math
-ifneq (,$(findstring clang,$(shell $(CC) --version 2>/dev/null)))
-KERNEL_CFLAGS += -fveclib=libmvec -Wno-pass-failed
-endif
-ifeq ($(ARCH),x86_64)
-KERNELS := x86_64 x86_64_v3 x86_64_v4
-MARCH_x86_64 := -march=x86-64 -Wno-psabi
-MARCH_x86_64_v3 := -march=x86-64-v3
-MARCH_x86_64_v4 := -march=x86-64-v4 -mprefer-vector-width=512
-LIBMVEC := -lmvec
-else
-KERNELS := native
-MARCH_native :=
-endif
+KERNEL_CFLAGS := -fno-math-errno -fno-trapping-math $(VECLIB)
 KERNEL_OBJECTS := $(KERNELS:%=$(O)/common/dynamics/kernel_%.o)
 
 COMMON_OBJECTS := $(patsubst %.c,$(O)/%.o,$(filter-out common/dynamics/kernel.c,\
@@ -44,8 +46,10 @@ LIBRARY := $(B)/libdem.a
 
 # A change of compiler or flags rebuilds everything.
 FLAGS_NOW := $(CC) $(ALL_CFLAGS) $(KERNEL_CFLAGS)
+ifdef PROBED
 $(shell mkdir -p $(B); echo '$(FLAGS_NOW)' | cmp -s - $(B)/flags || \
 	echo '$(FLAGS_NOW)' > $(B)/flags)
+endif
 
 $(O)/%.o: %.c $(B)/flags
 	@mkdir -p $(@D)
@@ -61,9 +65,9 @@ $(KERNEL_OBJECTS): $(O)/common/dynamics/kernel_%.o: common/dynamics/kernel.c $(B
 
 $(LIBRARY): $(COMMON_OBJECTS)
 	@rm -f $@
-	ar rcs $@ $^
+	$(AR) rcs $@ $^
 
-LINK = $(CC) $(ALL_CFLAGS) $^ $(GSL_LIBS) $(LIBMVEC) -lm -o $@
+LINK = $(CC) $(ALL_CFLAGS) $(LDFLAGS) $^ $(GSL_LIBS) $(LIBMVEC) -lm -o $@
 # Each program is a folder of sources.
 PROGRAMS := bounce settle analyze precision stability
 define program_rule

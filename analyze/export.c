@@ -6,9 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 #include <gsl/gsl_math.h>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
+#include "platform/system.h"
 #include "program/files.h"
 #include "frames.h"
 #include "measure.h"
@@ -343,12 +341,7 @@ int verb_export(int argc, char **argv) {
   box_check(&box);
   memcpy(q.write.box, box.at, sizeof q.write.box);
   take_cells(&cells, q.write.cells);
-#ifdef _OPENMP
-  if (q.write.threads == 0)
-    q.write.threads = (size_t)omp_get_num_procs();
-#else
-  q.write.threads = 1;
-#endif
+  q.write.threads = system_threads(q.write.threads);
   if (q.format->binary && !q.output && isatty(STDOUT_FILENO))
     die(EXIT_USAGE, "--format %s: not for a terminal, expected > FILE", format);
 

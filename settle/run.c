@@ -5,13 +5,13 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
 #include <time.h>
 #include <unistd.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include "program/files.h"
 #include "model/rest.h"
+#include "platform/system.h"
 #include "dynamics/motion.h"
 #include "watch.h"
 
@@ -128,9 +128,9 @@ static void write_stats(const struct run *r, FILE *out, double t_end,
   fprintf(out, "t_end\t%.17g\n", t_end);
   fprintf(out, "pair_list_builds\t%zu\n", counts.builds);
   fprintf(out, "contacts_listed\t%zu\n", counts.contacts);
-  struct rusage usage;
-  if (getrusage(RUSAGE_SELF, &usage) == 0)
-    fprintf(out, "peak_memory_kb\t%ld\n", usage.ru_maxrss);
+  const long memory = system_peak_memory();
+  if (memory >= 0)
+    fprintf(out, "peak_memory_kb\t%ld\n", memory);
   watch_stats(r->watch, out);
   fprintf(out, "exit_status\t%d\n", status);
 }

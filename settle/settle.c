@@ -3,9 +3,7 @@
    and writes its frames. */
 #include <string.h>
 #include <gsl/gsl_errno.h>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
+#include "platform/system.h"
 #include "run.h"
 #include "program/shared_options.h"
 #include "start.h"
@@ -103,12 +101,7 @@ int main(int argc, char **argv) {
   struct bed_header header = {0};
   start_make(&s, options, &bed, &header);
   check(&s, &bed);
-#ifdef _OPENMP
-  if (s.threads == 0)
-    s.threads = (size_t)omp_get_num_procs();
-#else
-  s.threads = 1;
-#endif
+  s.threads = system_threads(s.threads);
   const int status = run(&s, &bed, &header);
   bed_free(&bed);
   bed_header_free(&header);

@@ -4,8 +4,8 @@
    NaN and infinity are kept, since they tell of a step too long. */
 #include "dynamics/kernel.h"
 
-#include <math.h>
 #include <string.h>
+#include "platform/vector_exp.h"
 
 #ifndef KERNEL_ISA
 #define KERNEL_ISA native
@@ -14,13 +14,6 @@
 #define JOIN(a, b) JOIN_(a, b)
 #define TEXT_(a) #a
 #define TEXT(a) TEXT_(a)
-
-#if defined __x86_64__ && defined __GNUC__ && !defined __clang__
-/* glibc's libmvec has vector variants; math.h declares them only under
-   -ffast-math. */
-#pragma omp declare simd notinbranch
-double exp(double);
-#endif
 
 #define INLINE static inline __attribute__((always_inline))
 

@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the operating system and the compiler's runtime tell, each in a way of
+   its own. Safe from any thread. Tested in tests/test_platform.c. */
+#ifndef SYSTEM_H
+#define SYSTEM_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* The number of threads for a wish: itself, all cores for 0; 1 where the
+   programs were built without OpenMP. */
+size_t system_threads(size_t wanted);
+
+/* The most memory that this process has had (kB), or -1 where the system does
+   not tell. */
+long system_peak_memory(void);
+
+/* The path of the running program's file, without links. False where the
+   system does not tell or it does not fit. */
+bool system_program(char *path, size_t size);
+
+#endif
