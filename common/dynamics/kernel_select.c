@@ -5,25 +5,46 @@
 #include <string.h>
 
 #ifdef __x86_64__
+#include <cpuid.h>
+
 extern const struct kernel kernel_x86_64, kernel_x86_64_v3, kernel_x86_64_v4;
+
+#define HAS(feature) (__builtin_cpu_supports(feature) != 0)
+
+/* Not every compiler's builtin knows these three. */
+static bool machine_has_movbe_f16c_lzcnt(void) {
+  unsigned a, b, c, d;
+  if (!__get_cpuid(1, &a, &b, &c, &d) || !(c & bit_MOVBE) || !(c & bit_F16C))
+    return false;
+  return __get_cpuid(0x80000001, &a, &b, &c, &d) && (c & bit_LZCNT);
+}
+
+/* All that a compiler may emit for -march=x86-64-v3, and that the operating
+   system keeps the registers of. */
+static bool machine_has_v3(void) {
+  return HAS("sse4.2") && HAS("popcnt") && HAS("avx") && HAS("avx2") &&
+         HAS("fma") && HAS("bmi") && HAS("bmi2") &&
+         machine_has_movbe_f16c_lzcnt();
+}
+
+/* The same for x86-64-v4. */
+static bool machine_has_v4(void) {
+  return machine_has_v3() && HAS("avx512f") && HAS("avx512bw") &&
+         HAS("avx512cd") && HAS("avx512dq") && HAS("avx512vl");
+}
 
 const struct kernel *kernel_select(void) {
   /* DEM_ISA=x86_64 or x86_64_v3 asks for less than the machine has, for tests
      and benchmarks. */
   const char *most = getenv("DEM_ISA");
-  if (most && !strcmp(most, kernel_x86_64.name))
-    return &kernel_x86_64;
-  if (most && !strcmp(most, kernel_x86_64_v3.name))
+  if (!most)
     most = "";
-  else
-    most = NULL;
   __builtin_cpu_init();
-  if (!most && __builtin_cpu_supports("avx512f") &&
-      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
-    return &kernel_x86_64_v4;
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+  if (!strcmp(most, kernel_x86_64.name) || !machine_has_v3())
+    return &kernel_x86_64;
+  if (!strcmp(most, kernel_x86_64_v3.name) || !machine_has_v4())
     return &kernel_x86_64_v3;
-  return &kernel_x86_64;
+  return &kernel_x86_64_v4;
 }
 #else
 extern const struct kernel kernel_native;
