@@ -27,7 +27,7 @@ static int count_pairs(size_t n, const double *x, double rmax, size_t bins,
   const int status = neighbors_find(&near, n, x, 3, no_radius, rmax);
   for (size_t p = 0; p < near.count; p++) {
     double u[3];
-    vec3_sub(x + 3 * near.i[p], x + 3 * near.j[p], u);
+    vec3_sub(x + 3 * (size_t)near.i[p], x + 3 * (size_t)near.j[p], u);
     const double at = vec3_norm(u) / rmax * (double)bins;
     if (at < (double)bins)
       pairs[(size_t)at]++;

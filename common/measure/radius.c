@@ -30,7 +30,7 @@ static int find_contacts(const struct scene *s, size_t n, const double *x,
   const int status = neighbors_find(&nb, n, x, 3, radii, 0);
   for (size_t p = 0; p < nb.count; p++) {
     double d[3];
-    vec3_sub(x + 3 * nb.i[p], x + 3 * nb.j[p], d);
+    vec3_sub(x + 3 * (size_t)nb.i[p], x + 3 * (size_t)nb.j[p], d);
     const double distance = vec3_norm(d);
     c->pairs++;
     c->pair_sum += distance;
