@@ -88,6 +88,11 @@ $(B)/tests/%: $(O)/tests/%.o $(LIBRARY)
 	$(LINK)
 .SECONDARY:
 
+# What allocates is replaced by what can fail.
+$(B)/tests/test_memory: OPENMP += $(foreach f,malloc calloc realloc \
+	gsl_odeiv2_step_alloc gsl_odeiv2_evolve_alloc \
+	gsl_odeiv2_control_scaled_new,-Wl,--wrap=$(f))
+
 check: all $(B)/stability $(TEST_PROGRAMS) ## run the tests (minutes)
 	@B=$(B) tests/run.sh $(TEST_PROGRAMS) $(TEST_SCRIPTS)
 

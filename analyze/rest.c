@@ -43,10 +43,9 @@ struct energies {
 
 static struct energies energies(const struct frames *f, const struct scene *s,
                                 const struct bed *b) {
-  struct dynamics *d =
-      dynamics_alloc(s, b, &(struct dynamics_options){.threads = 1});
-  if (!d)
-    frame_check(f, b, GSL_ENOMEM);
+  struct dynamics *d = NULL;
+  frame_check(
+      f, b, dynamics_alloc(&d, s, b, &(struct dynamics_options){.threads = 1}));
   double *y = measure_alloc(dynamics_dimension(d), sizeof *y);
   dynamics_pack(d, b, y);
   const struct energies e = {dynamics_kinetic(d, y) / (double)b->n,

@@ -306,8 +306,7 @@ int main(int argc, char **argv) {
   const int status = integrate_alloc(&it, &integrate, &problem, 0,
                                      (const double[]){height, 0});
   if (status != GSL_SUCCESS)
-    die(status == GSL_EINVAL ? EXIT_USAGE : EXIT_IO, "--method %s: %s",
-        integrate.method, gsl_strerror(status));
+    die_status(status, "--method %s", integrate.method);
   print_header(options);
   int code = EXIT_DONE;
   struct watch w = watch_start(it, &drop, &integrate);

@@ -23,21 +23,21 @@ static int run(const struct precision_case *c, const void *reference,
   double gap, velocity;
   closed_collision(c->law.f0, c->law.kappa, c->speed, -tau, &gap, &velocity);
   const struct scene scene = {.model = SCENE_BASIC, .law = c->law};
-  struct motion m;
-  const int status = motion_start_over_floor(
+  struct motion *m = NULL;
+  const int status = motion_alloc_over_floor(
       &m, &scene, radius, (double[]){0, 0, radius + gap},
       (double[]){0, 0, velocity}, c->integrate, c->travel);
   if (status != GSL_SUCCESS)
     return status;
   measure_start(r);
-  r->status = measure_until(m.integrator, 2 * tau, 10000000);
+  r->status = measure_until(m->integrator, 2 * tau, 10000000);
   measure_stop(r);
-  const double *y = integrate_state(m.integrator);
+  const double *y = integrate_state(m->integrator);
   closed_collision(c->law.f0, c->law.kappa, c->speed, tau, &gap, &velocity);
   const double error[] = {fabs(y[2] - radius - gap), fabs(y[5] - velocity)};
-  measure_add(r, m.integrator, dynamics_counts(m.dynamics).evaluations, error,
+  measure_add(r, m->integrator, dynamics_counts(m->dynamics).evaluations, error,
               2);
-  motion_free(&m);
+  motion_free(m);
   measure_mean(r);
   return GSL_SUCCESS;
 }

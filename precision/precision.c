@@ -77,11 +77,8 @@ static void print_row(const struct precision_scene *s,
     const double before = end;
     r = (struct precision_result){.status = "ok"};
     const int status = s->run(c, reference, &r);
-    if (status == GSL_EINVAL)
-      die(EXIT_USAGE, "%s: method %s does not fit", s->name,
-          c->integrate->method);
     if (status != GSL_SUCCESS)
-      die(EXIT_IO, "%s: %s", s->name, gsl_strerror(status));
+      die_status(status, "%s: method %s", s->name, c->integrate->method);
     end = measure_clock();
     best = fmin(best, r.cpu_seconds > 0 ? r.cpu_seconds : end - before);
   } while (end - start < timed);
@@ -163,7 +160,7 @@ int main(int argc, char **argv) {
   if (s->prepare) {
     const int status = s->prepare(&c, &reference, reference_error);
     if (status != GSL_SUCCESS)
-      die(EXIT_IO, "%s: no reference: %s", s->name, gsl_strerror(status));
+      die_status(status, "%s: no reference", s->name);
   }
   print_header(options, s, reference_error);
   for (size_t k = 0; k < tolerances.count; k++) {

@@ -23,12 +23,12 @@ static double slip_of(const double y[]) {
 
 /* The k-th run: slides with the given speed, at rest on the floor. */
 static int start(const struct precision_case *c, double speed, size_t k,
-                 struct motion *m) {
+                 struct motion **m) {
   const struct integrate_options o = measure_variant(c->integrate, k);
   const struct scene scene = {
       .model = SCENE_ROTATION, .law = c->law, .gravity = {0, 0, -c->gravity}};
   const double rest = closed_rest_gap(&c->law, c->gravity);
-  return motion_start_over_floor(
+  return motion_alloc_over_floor(
       m, &scene, radius, (double[]){0, 0, radius + rest},
       (double[]){speed * direction[0], speed * direction[1], 0}, &o, c->travel);
 }
@@ -48,15 +48,15 @@ static int run_velocity(const struct precision_case *c, const void *reference,
   double share;
   int status = closed_slip_share(c->time - full, c->law.vmin, rate, &share);
   for (size_t k = 0; k < MEASURE_STARTS && status == GSL_SUCCESS; k++) {
-    struct motion m;
+    struct motion *m = NULL;
     const double more = earlier(c, k), v0 = c->speed + rate * more;
     status = start(c, v0, k, &m);
     if (status != GSL_SUCCESS)
       return status;
     measure_start(r);
-    const char *word = measure_until(m.integrator, c->time + more, most);
+    const char *word = measure_until(m->integrator, c->time + more, most);
     measure_stop(r);
-    const double *y = integrate_state(m.integrator);
+    const double *y = integrate_state(m->integrator);
     const double rolling = 5. / 7 * v0 + 2. / 7 * share * c->law.vmin;
     const double spin[2] = {radius * y[7], -radius * y[6]};
     double off[2], kept[2];
@@ -65,11 +65,11 @@ static int run_velocity(const struct precision_case *c, const void *reference,
       kept[i] = y[3 + i] + 0.4 * spin[i] - v0 * direction[i];
     }
     const double error[] = {hypot(off[0], off[1]), hypot(kept[0], kept[1])};
-    measure_add(r, m.integrator, dynamics_counts(m.dynamics).evaluations, error,
-                2);
+    measure_add(r, m->integrator, dynamics_counts(m->dynamics).evaluations,
+                error, 2);
     if (word != measure_ok)
       r->status = word;
-    motion_free(&m);
+    motion_free(m);
   }
   measure_mean(r);
   return status;
@@ -96,25 +96,25 @@ static int run_transition(const struct precision_case *c, const void *reference,
   const double exact = (c->speed - c->law.vmin) / rate +
                        closed_slip_time(0.5, c->law.vmin, rate);
   for (size_t k = 0; k < MEASURE_STARTS; k++) {
-    struct motion m;
+    struct motion *m = NULL;
     const double more = earlier(c, k);
     const int status = start(c, c->speed + rate * more, k, &m);
     if (status != GSL_SUCCESS)
       return status;
     struct slipping s = {0.5 * c->law.vmin, rate, c->law};
     measure_start(r);
-    const char *word = measure_event(m.integrator, to_slip, &s, most);
+    const char *word = measure_event(m->integrator, to_slip, &s, most);
     measure_stop(r);
     /* a step that passed it, by an interpolation of first order: never with
        the bound of to_slip but for errors of the method */
-    const double *y = integrate_state(m.integrator);
-    const double error = fabs(integrate_time(m.integrator) +
+    const double *y = integrate_state(m->integrator);
+    const double error = fabs(integrate_time(m->integrator) +
                               to_slip(y, NULL, &s) - exact - more);
-    measure_add(r, m.integrator, dynamics_counts(m.dynamics).evaluations,
+    measure_add(r, m->integrator, dynamics_counts(m->dynamics).evaluations,
                 &error, 1);
     if (word != measure_ok)
       r->status = word;
-    motion_free(&m);
+    motion_free(m);
   }
   measure_mean(r);
   return GSL_SUCCESS;

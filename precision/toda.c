@@ -51,7 +51,7 @@ static int eigenvalues(const struct line *l, const double y[], double value[]) {
        triangle */
     const size_t first = l->closed ? 1 : 0;
     for (size_t i = 0; i < n; i++) {
-      const double velocity = y[6 * i + 3];
+      const double velocity = y[ROW_PLAIN * i + ROW_V];
       gsl_matrix_set(m, first + i, first + i, velocity);
       if (l->closed)
         gsl_matrix_set(m, size - 1 - i, size - 1 - i, -velocity);
@@ -110,20 +110,20 @@ static int run(const struct precision_case *c, bool closed,
   struct line line = {.n = c->count, .closed = closed, .law = c->law};
   struct scene scene = {.model = SCENE_BASIC, .law = c->law};
   struct bed bed = {0};
-  struct motion m = {0};
+  struct motion *m = NULL;
   const size_t size = ring_size(&line);
   double *value = malloc(2 * size * sizeof *value);
   int status = value ? fill(c, &line, &scene, &bed) : GSL_ENOMEM;
   if (status == GSL_SUCCESS)
-    status = motion_start(&m, &scene, &bed, c->integrate,
+    status = motion_alloc(&m, &scene, &bed, c->integrate,
                           &(struct dynamics_options){.threads = 1}, c->travel);
   if (status == GSL_SUCCESS)
-    status = eigenvalues(&line, integrate_state(m.integrator), value);
+    status = eigenvalues(&line, integrate_state(m->integrator), value);
   if (status == GSL_SUCCESS) {
     measure_start(r);
-    r->status = measure_until(m.integrator, c->time, most);
+    r->status = measure_until(m->integrator, c->time, most);
     measure_stop(r);
-    status = eigenvalues(&line, integrate_state(m.integrator), value + size);
+    status = eigenvalues(&line, integrate_state(m->integrator), value + size);
   }
   if (status == GSL_SUCCESS) {
     double moved = 0;
@@ -131,13 +131,13 @@ static int run(const struct precision_case *c, bool closed,
       if (!(fabs(value[size + i] - value[i]) <= moved))
         moved = fabs(value[size + i] - value[i]);
     moved /= GSL_MAX(-value[0], value[size - 1]);
-    measure_add(r, m.integrator, dynamics_counts(m.dynamics).evaluations,
+    measure_add(r, m->integrator, dynamics_counts(m->dynamics).evaluations,
                 &moved, 1);
     measure_mean(r);
     if (r->status == measure_ok && !(moved <= 1))
       r->status = "lost";
   }
-  motion_free(&m);
+  motion_free(m);
   bed_free(&bed);
   scene_free(&scene);
   free(value);

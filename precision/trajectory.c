@@ -47,18 +47,18 @@ static int fall(const struct precision_case *c,
                 struct precision_result *r) {
   struct scene scene;
   struct bed bed;
-  struct motion m;
+  struct motion *m = NULL;
   int status = start(c, &scene, &bed);
   if (status == GSL_SUCCESS) {
-    status = motion_start(&m, &scene, &bed, o,
+    status = motion_alloc(&m, &scene, &bed, o,
                           &(struct dynamics_options){.threads = 1}, c->travel);
     if (status == GSL_SUCCESS) {
-      r->status = measure_until(m.integrator, c->time, most_steps);
-      dynamics_unpack(m.dynamics, integrate_state(m.integrator), &bed);
+      r->status = measure_until(m->integrator, c->time, most_steps);
+      dynamics_unpack(m->dynamics, integrate_state(m->integrator), &bed);
       memcpy(at, bed.x, 3 * bed.n * sizeof *at);
       memcpy(at + 3 * bed.n, bed.v, 3 * bed.n * sizeof *at);
-      measure_counts(&m, r);
-      motion_free(&m);
+      measure_counts(m, r);
+      motion_free(m);
     }
     bed_free(&bed);
   }

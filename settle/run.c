@@ -19,7 +19,7 @@ struct run {
   const struct settings *set;
   const struct bed_header *header;
   struct bed *bed;
-  struct motion motion;
+  struct motion *motion;
   struct watch *watch;
   double *y;    /* interpolated state */
   double start; /* time */
@@ -38,12 +38,12 @@ static double seconds(clockid_t clock) {
 
 static void write_frame(struct run *r, const double *y, double t) {
   static const struct bed_header none = {0};
-  dynamics_unpack(r->motion.dynamics, y, r->bed);
+  dynamics_unpack(r->motion->dynamics, y, r->bed);
   r->bed->t = t;
   if (r->frames)
     bed_write_gap(stdout);
   bed_write_frame(stdout, r->frames ? &none : r->header, r->bed,
-                  dynamics_stride(r->motion.dynamics) == 9);
+                  dynamics_stride(r->motion->dynamics) == ROW_SPIN);
   r->frames++;
   if (ferror(stdout))
     finish_output(); /* does not return */
@@ -58,10 +58,10 @@ static double frame_time(const struct run *r, size_t k) {
 
 /* Every frame that is due by now. */
 static void write_due_frames(struct run *r) {
-  const double t = integrate_time(r->motion.integrator);
+  const double t = integrate_time(r->motion->integrator);
   while (r->frames < r->set->frames && frame_time(r, r->frames) <= t) {
     const double at = frame_time(r, r->frames);
-    if (integrate_at(r->motion.integrator, at, r->y) == GSL_SUCCESS)
+    if (integrate_at(r->motion->integrator, at, r->y) == GSL_SUCCESS)
       write_frame(r, r->y, at);
     else
       die(EXIT_IO, "internal error: frame at t=%g outside the last step", at);
@@ -70,18 +70,18 @@ static void write_due_frames(struct run *r) {
 
 /* Of the method, without the watch's own. */
 static size_t evaluations(const struct run *r) {
-  return dynamics_counts(r->motion.dynamics).evaluations -
+  return dynamics_counts(r->motion->dynamics).evaluations -
          watch_evaluations(r->watch);
 }
 
 static void write_log(struct run *r) {
-  const double *y = integrate_state(r->motion.integrator);
+  const double *y = integrate_state(r->motion->integrator);
   fprintf(r->log, "%.17g\t%.17g\t%zu\t%zu\t%.17g\t%.17g\n",
-          integrate_time(r->motion.integrator),
-          integrate_last_step(r->motion.integrator),
-          integrate_counts(r->motion.integrator).accepted, evaluations(r),
-          dynamics_kinetic(r->motion.dynamics, y),
-          dynamics_potential(r->motion.dynamics, y));
+          integrate_time(r->motion->integrator),
+          integrate_last_step(r->motion->integrator),
+          integrate_counts(r->motion->integrator).accepted, evaluations(r),
+          dynamics_kinetic(r->motion->dynamics, y),
+          dynamics_potential(r->motion->dynamics, y));
 }
 
 static void show_progress(struct run *r) {
@@ -89,17 +89,17 @@ static void show_progress(struct run *r) {
   if (!r->show || elapsed < r->shown + 0.5)
     return;
   r->shown = elapsed;
-  const double t = integrate_time(r->motion.integrator);
+  const double t = integrate_time(r->motion->integrator);
   const double done = (t - r->start) / (r->set->time - r->start);
   fprintf(stderr,
           "\rsettle: %3.0f %%  t=%.3f s  h=%.2e s  %zu evaluations  %.0f s "
           "left \033[K",
-          100 * done, t, integrate_last_step(r->motion.integrator),
+          100 * done, t, integrate_last_step(r->motion->integrator),
           evaluations(r), elapsed * (1 - done) / GSL_MAX(done, 1e-9));
 }
 
 static bool at_rest(struct run *r) {
-  const struct motion *m = &r->motion;
+  const struct motion *m = r->motion;
   return rest_watch_see(
       &r->rest, integrate_time(m->integrator),
       dynamics_fastest(m->dynamics, integrate_state(m->integrator)),
@@ -109,13 +109,13 @@ static bool at_rest(struct run *r) {
 static void write_stats(const struct run *r, FILE *out, double t_end,
                         int status) {
   const struct settings *s = r->set;
-  const struct integrate_counts steps = integrate_counts(r->motion.integrator);
-  const struct dynamics_counts counts = dynamics_counts(r->motion.dynamics);
+  const struct integrate_counts steps = integrate_counts(r->motion->integrator);
+  const struct dynamics_counts counts = dynamics_counts(r->motion->dynamics);
   fprintf(out, "method\t%s\n", s->integrate.method);
   fprintf(out, "control\t%s\n",
           s->integrate.step > 0 ? "none" : s->integrate.control);
   fprintf(out, "spheres\t%zu\n", r->bed->n);
-  fprintf(out, "unknowns\t%zu\n", dynamics_dimension(r->motion.dynamics));
+  fprintf(out, "unknowns\t%zu\n", dynamics_dimension(r->motion->dynamics));
   fprintf(out, "rhs_evaluations\t%zu\n", evaluations(r));
   fprintf(out, "steps_accepted\t%zu\n", steps.accepted);
   fprintf(out, "steps_rejected\t%zu\n", steps.rejected);
@@ -124,7 +124,7 @@ static void write_stats(const struct run *r, FILE *out, double t_end,
   fprintf(out, "wall_seconds\t%.6f\n",
           seconds(CLOCK_MONOTONIC) - r->wall_start);
   fprintf(out, "threads\t%zu\n", s->threads);
-  fprintf(out, "kernel\t%s\n", dynamics_kernel(r->motion.dynamics));
+  fprintf(out, "kernel\t%s\n", dynamics_kernel(r->motion->dynamics));
   fprintf(out, "t_end\t%.17g\n", t_end);
   fprintf(out, "pair_list_builds\t%zu\n", counts.builds);
   fprintf(out, "contacts_listed\t%zu\n", counts.contacts);
@@ -157,9 +157,9 @@ static int integrate_all(struct run *r, char *reason, size_t size) {
   const struct settings *s = r->set;
   snprintf(reason, size, "ok");
   write_due_frames(r);
-  while (integrate_time(r->motion.integrator) < s->time) {
-    const int status = integrate_step(r->motion.integrator);
-    const double t = integrate_time(r->motion.integrator);
+  while (integrate_time(r->motion->integrator) < s->time) {
+    const int status = integrate_step(r->motion->integrator);
+    const double t = integrate_time(r->motion->integrator);
     if (status != GSL_SUCCESS)
       return failed(t, explain(s, status), "Missed collisions", reason, size);
     if (r->log)
@@ -178,8 +178,8 @@ static int integrate_all(struct run *r, char *reason, size_t size) {
   warn("not at rest at t=%g: surfaces still move at %.3g m/s, expected below "
        "vmin = %g m/s",
        s->time,
-       dynamics_fastest(r->motion.dynamics,
-                        integrate_state(r->motion.integrator)),
+       dynamics_fastest(r->motion->dynamics,
+                        integrate_state(r->motion->integrator)),
        s->scene.law.vmin);
   return EXIT_LIMIT;
 }
@@ -191,15 +191,14 @@ int run(const struct settings *s, struct bed *b,
   r.wall_start = seconds(CLOCK_MONOTONIC);
   r.cpu_start = seconds(CLOCK_PROCESS_CPUTIME_ID);
   r.show = !s->quiet && isatty(STDERR_FILENO);
-  const int status = motion_start(
+  const int status = motion_alloc(
       &r.motion, &s->scene, b, &s->integrate,
       &(struct dynamics_options){.all_pairs = !strcmp(s->pairs, "all"),
                                  .threads = (int)s->threads},
       s->travel / s->scene.law.kappa);
   if (status != GSL_SUCCESS)
-    die(status == GSL_EINVAL ? EXIT_USAGE : EXIT_IO, "method %s: %s",
-        s->integrate.method, gsl_strerror(status));
-  r.y = malloc(dynamics_dimension(r.motion.dynamics) * sizeof *r.y);
+    die_status(status, "method %s", s->integrate.method);
+  r.y = malloc(dynamics_dimension(r.motion->dynamics) * sizeof *r.y);
   if (!r.y)
     die(EXIT_IO, "out of memory");
   struct output_file log, stats; /* opened before hours are spent */
@@ -211,7 +210,7 @@ int run(const struct settings *s, struct bed *b,
     fputs("t\th\tsteps\tevaluations\tkinetic\tpotential\n", r.log);
   }
 
-  r.watch = watch_start(s, b, &r.motion);
+  r.watch = watch_start(s, b, r.motion);
   if (!r.watch)
     die(EXIT_IO, "out of memory");
   char reason[160];
@@ -220,10 +219,10 @@ int run(const struct settings *s, struct bed *b,
     fputs("\r\033[K", stderr);
   if (code != EXIT_INTEGRATION)
     watch_end(r.watch);
-  const double t_end = GSL_MIN(integrate_time(r.motion.integrator), s->time);
+  const double t_end = GSL_MIN(integrate_time(r.motion->integrator), s->time);
   /* ended before the last frame: the state reached is one more */
   if (r.frames < s->frames) {
-    if (integrate_at(r.motion.integrator, t_end, r.y) != GSL_SUCCESS)
+    if (integrate_at(r.motion->integrator, t_end, r.y) != GSL_SUCCESS)
       die(EXIT_IO, "internal error: no state at t=%g", t_end);
     write_frame(&r, r.y, t_end);
   }
@@ -236,7 +235,7 @@ int run(const struct settings *s, struct bed *b,
     output_commit(&stats);
   }
   watch_free(r.watch);
-  motion_free(&r.motion);
+  motion_free(r.motion);
   free(r.y);
   return code;
 }

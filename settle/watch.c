@@ -73,7 +73,7 @@ struct watch {
   double margin;  /* how far spheres may go before the next (m) */
   size_t next_survey, surveys;
   double smallest; /* radius (m) */
-  struct dynamics_survey survey;
+  struct survey survey;
   double deepest;
   size_t deep_steps;
   bool told_overlap;
@@ -215,7 +215,7 @@ static void step_stiff(struct watch *w, double h) {
 static void measure_energy(struct watch *w) {
   struct energy *e = &w->energy;
   const struct contact_law *c = &w->set->scene.law;
-  const struct dynamics_survey *v = &w->survey;
+  const struct survey *v = &w->survey;
   const double inner =
       e->weight *
           (v->stored - (double)v->contacts * contact_energy(c, c->lmax)) +
@@ -275,7 +275,7 @@ static double furthest_moved(const struct watch *w, const double *y) {
    wall. */
 static void survey(struct watch *w, const double *y) {
   const size_t stride = dynamics_stride(w->motion->dynamics);
-  struct dynamics_survey *v = &w->survey;
+  struct survey *v = &w->survey;
   if (dynamics_survey(w->motion->dynamics, y, v) != GSL_SUCCESS)
     return;
   for (size_t i = 0; i < w->bed->n; i++)
@@ -289,7 +289,7 @@ static void survey(struct watch *w, const double *y) {
 }
 
 static void tell_overlap(struct watch *w) {
-  const struct dynamics_survey *v = &w->survey;
+  const struct survey *v = &w->survey;
   if (w->told_overlap || !(v->overlap > deep_overlap))
     return;
   w->told_overlap = true;
@@ -304,7 +304,7 @@ static bool step_contacts(struct watch *w, char *reason, size_t size) {
   if (own_evaluations(w) >= w->next_survey ||
       !(furthest_moved(w, y) <= w->margin))
     survey(w, y);
-  const struct dynamics_survey *v = &w->survey;
+  const struct survey *v = &w->survey;
   if (v->inside < 0 && w->energy.share > gross_share) {
     snprintf(reason, size, "sphere %ld is %.3g m outside wall %zu",
              w->bed->id[v->outsider], -v->inside, v->wall + 1);

@@ -69,26 +69,26 @@ static int creep(const struct slope *a, double time, double travel,
                               .law = *law,
                               .gravity = {gravity * sin(a->angle), 0, -weight}};
   const double rest = closed_rest_gap(law, weight);
-  struct motion m;
-  int status = motion_start_over_floor(&m, &scene, radius,
+  struct motion *m = NULL;
+  int status = motion_alloc_over_floor(&m, &scene, radius,
                                        (double[]){0, 0, radius + rest},
                                        (double[]){0, 0, 0}, o, travel);
   if (status != GSL_SUCCESS)
     return status;
   *v = (struct speeds){GSL_NAN, GSL_POSINF, GSL_NEGINF, 0};
-  status = integrate_stop(m.integrator, time);
-  while (status == GSL_SUCCESS && integrate_time(m.integrator) < time) {
-    status = integrate_step(m.integrator);
-    const double now = integrate_state(m.integrator)[3];
-    if (integrate_time(m.integrator) > 0.5 * time) {
+  status = integrate_stop(m->integrator, time);
+  while (status == GSL_SUCCESS && integrate_time(m->integrator) < time) {
+    status = integrate_step(m->integrator);
+    const double now = integrate_state(m->integrator)[3];
+    if (integrate_time(m->integrator) > 0.5 * time) {
       v->least = GSL_MIN(v->least, now);
       v->most = GSL_MAX(v->most, now);
     }
   }
   if (status == GSL_SUCCESS)
-    v->end = integrate_state(m.integrator)[3];
-  v->evaluations = dynamics_counts(m.dynamics).evaluations;
-  motion_free(&m);
+    v->end = integrate_state(m->integrator)[3];
+  v->evaluations = dynamics_counts(m->dynamics).evaluations;
+  motion_free(m);
   return GSL_SUCCESS;
 }
 
@@ -127,8 +127,7 @@ int verb_creep(int argc, char **argv) {
     struct speeds v;
     const int status = creep(&slope, time, travel / law.kappa, &integrate, &v);
     if (status != GSL_SUCCESS)
-      die(status == GSL_EINVAL ? EXIT_USAGE : EXIT_IO, "method %s: %s",
-          integrate.method, gsl_strerror(status));
+      die_status(status, "method %s", integrate.method);
     printf("%s\t%.6g\t%.6g\t%.9g\t%.9g\t%.9g\t%.9g\t%zu\n", integrate.method,
            slope.share, slope.angle * 180 / M_PI, closed_form(&slope, time),
            v.end / law.vmin, v.least / law.vmin, v.most / law.vmin,

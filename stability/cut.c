@@ -81,8 +81,7 @@ static void print_run(struct wall_contact *w, double v0,
   w->evaluations = 0;
   int status = integrate_alloc(&it, o, &problem, 0, start);
   if (status != GSL_SUCCESS)
-    die(status == GSL_EINVAL ? EXIT_USAGE : EXIT_IO, "method %s: %s", o->method,
-        gsl_strerror(status));
+    die_status(status, "method %s", o->method);
   status = integrate_stop(it, 2 * tau);
   while (status == GSL_SUCCESS && integrate_time(it) < 2 * tau)
     status = integrate_step(it);

@@ -54,12 +54,12 @@ static int fill_box(const struct elastic *e, struct scene *s, struct bed *b) {
   return GSL_SUCCESS;
 }
 
-static int start(struct motion *m, const struct elastic *e,
+static int start(struct motion **m, const struct elastic *e,
                  const struct integrate_options *o) {
   struct scene scene = {
       .model = SCENE_BASIC, .law = e->law, .gravity = {0, 0, -gravity}};
   if (!e->box)
-    return motion_start_over_floor(m, &scene, radius,
+    return motion_alloc_over_floor(m, &scene, radius,
                                    (double[]){0, 0, radius + e->drop},
                                    (double[]){0, 0, 0}, o, e->travel);
   struct bed bed = {0};
@@ -67,7 +67,7 @@ static int start(struct motion *m, const struct elastic *e,
   if (status == GSL_SUCCESS)
     status = fill_box(e, &scene, &bed);
   if (status == GSL_SUCCESS)
-    status = motion_start(m, &scene, &bed, o,
+    status = motion_alloc(m, &scene, &bed, o,
                           &(struct dynamics_options){.threads = 1}, e->travel);
   bed_free(&bed);
   scene_free(&scene);
@@ -83,18 +83,19 @@ static double energy(const struct motion *m) {
    or take too many. */
 static double cost_of(const struct elastic *e,
                       const struct integrate_options *o, double too_many) {
-  struct motion m;
+  struct motion *m = NULL;
   const double units = 10;
-  if (start(&m, e, o) != GSL_SUCCESS)
-    die(EXIT_USAGE, "method %s does not fit", o->method);
+  const int status = start(&m, e, o);
+  if (status != GSL_SUCCESS)
+    die_status(status, "method %s", o->method);
   double cost = 0;
-  while (integrate_time(m.integrator) < units * e->unit && cost < too_many) {
-    if (integrate_step(m.integrator) != GSL_SUCCESS)
+  while (integrate_time(m->integrator) < units * e->unit && cost < too_many) {
+    if (integrate_step(m->integrator) != GSL_SUCCESS)
       cost = GSL_POSINF;
     else
-      cost = (double)dynamics_counts(m.dynamics).evaluations / units;
+      cost = (double)dynamics_counts(m->dynamics).evaluations / units;
   }
-  motion_free(&m);
+  motion_free(m);
   return cost;
 }
 
@@ -178,31 +179,30 @@ int verb_drift(int argc, char **argv) {
     die(EXIT_LIMIT, "method %s: no tolerance costs %g evaluations a unit",
         integrate.method, cost);
 
-  struct motion m;
+  struct motion *m = NULL;
   const int status = start(&m, &e, &integrate);
   if (status != GSL_SUCCESS)
-    die(status == GSL_EINVAL ? EXIT_USAGE : EXIT_IO, "method %s: %s",
-        integrate.method, gsl_strerror(status));
+    die_status(status, "method %s", integrate.method);
   puts("method\ttol\tstep\tunits\terror\tlargest\tevaluations\tstatus");
-  const double first = energy(&m);
+  const double first = energy(m);
   double next = 1, largest = 0, rise = 0;
   const char *word = "ok";
   while (!strcmp(word, "ok")) {
-    if (integrate_step(m.integrator) != GSL_SUCCESS)
+    if (integrate_step(m->integrator) != GSL_SUCCESS)
       word = "gave_up";
-    const double error = energy(&m) / first - 1;
+    const double error = energy(m) / first - 1;
     if (!(fabs(error) <= largest))
       largest = fabs(error);
     /* the one sphere is looked at where it turns, far from the floor */
     const double last_rise = rise;
-    rise = integrate_state(m.integrator)[5];
+    rise = integrate_state(m->integrator)[5];
     const bool turned = e.box || (last_rise > 0 && rise <= 0);
-    if ((integrate_time(m.integrator) >= (next - 0.1) * e.unit && turned) ||
+    if ((integrate_time(m->integrator) >= (next - 0.1) * e.unit && turned) ||
         strcmp(word, "ok")) {
       printf("%s\t%.3g\t%.3g\t%.6g\t%.6g\t%.6g\t%zu\t%s\n", integrate.method,
              integrate.tol, integrate.step,
-             integrate_time(m.integrator) / e.unit, error, largest,
-             dynamics_counts(m.dynamics).evaluations, word);
+             integrate_time(m->integrator) / e.unit, error, largest,
+             dynamics_counts(m->dynamics).evaluations, word);
       fflush(stdout);
       largest = 0;
       if (next >= units)
@@ -210,6 +210,6 @@ int verb_drift(int argc, char **argv) {
       next = GSL_MIN(GSL_MAX(next * pow(10, 0.1), next + 1), units);
     }
   }
-  motion_free(&m);
+  motion_free(m);
   return EXIT_DONE;
 }

@@ -90,9 +90,8 @@ static int pressed_alloc(struct pressed *p, enum axis axis, double vmin,
   } else {
     p->bed.x[2] += p->small / p->rate;
   }
-  p->dynamics =
-      dynamics_alloc(&p->scene, &p->bed, &(struct dynamics_options){0, 1});
-  return p->dynamics ? GSL_SUCCESS : GSL_ENOMEM;
+  return dynamics_alloc(&p->dynamics, &p->scene, &p->bed,
+                        &(struct dynamics_options){.threads = 1});
 }
 
 static void pressed_free(struct pressed *p) {
@@ -110,15 +109,16 @@ static double mode_size(const struct pressed *p, const double y[]) {
 
 /* Whether the method with h = z/rate lets the perturbation grow or fails. */
 static bool grows(struct pressed *p, struct stepper_kind kind, double z) {
-  double y[9];
+  double y[ROW_SPIN];
   const double h = z / p->rate;
   const gsl_odeiv2_system sys = {.function = dynamics_rhs,
                                  .dimension = dynamics_dimension(p->dynamics),
                                  .params = p->dynamics};
   struct stepper s;
-  if (stepper_alloc(&s, kind, sys.dimension, dynamics_stride(p->dynamics), 3) !=
-      GSL_SUCCESS)
-    die(EXIT_IO, "%s: out of memory", kind.method);
+  const int status = stepper_alloc(&s, kind, sys.dimension,
+                                   dynamics_stride(p->dynamics), ROW_V);
+  if (status != GSL_SUCCESS)
+    die_status(status, "method %s", kind.method);
   dynamics_pack(p->dynamics, &p->bed, y);
   double most[2] = {p->small, 0};
   bool lost = false;
@@ -213,8 +213,9 @@ int verb_limits(int argc, char **argv) {
   puts("method\taxis\ttheory\tmeasured\tratio\tevaluations\tper_evaluation");
   for (enum axis axis = REAL; axis <= IMAGINARY; axis++) {
     struct pressed p;
-    if (pressed_alloc(&p, axis, vmin, share) != GSL_SUCCESS)
-      die(EXIT_IO, "out of memory");
+    const int status = pressed_alloc(&p, axis, vmin, share);
+    if (status != GSL_SUCCESS)
+      die_status(status, "a pressed sphere");
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
       const bool by_itself =
           !kinds[k].stages && !strcmp(kinds[k].method, "rkc");

@@ -44,7 +44,7 @@ int verb_regions(int argc, char **argv) {
         double r[2];
         const int status = stepper_factor(grids[g].kind, re, im, r);
         if (status != GSL_SUCCESS)
-          die(EXIT_IO, "%s: %s", name, gsl_strerror(status));
+          die_status(status, "%s", name);
         printf("%s\t%.6g\t%.6g\t%.6g\n", name, re, im, hypot(r[0], r[1]));
       }
       if (j + 1 < points)

@@ -39,7 +39,7 @@ static int shoot(const struct shot *s, const struct integrate_options *o,
   const bool wall = !strcmp(s->target, "wall");
   struct scene scene = {.model = SCENE_BASIC, .law = s->law};
   struct bed bed = {0};
-  struct motion m;
+  struct motion *m = NULL;
   int status =
       wall ? scene_add_wall(&scene, (double[]){0, 0, 0}, (double[]){0, 0, -1})
            : GSL_SUCCESS;
@@ -59,7 +59,7 @@ static int shoot(const struct shot *s, const struct integrate_options *o,
     bed.x[5] = -bed.x[2];
     bed.v[5] = -bed.v[2];
   }
-  status = motion_start(&m, &scene, &bed, o,
+  status = motion_alloc(&m, &scene, &bed, o,
                         &(struct dynamics_options){.threads = 1}, s->travel);
   bed_free(&bed);
   scene_free(&scene);
@@ -68,21 +68,21 @@ static int shoot(const struct shot *s, const struct integrate_options *o,
   const double end = 3 * s->distance / s->speed;
   bool lost = false;
   /* beyond so many steps it is stuck */
-  for (size_t k = 0; k < 100000 && integrate_time(m.integrator) < end && !lost;
+  for (size_t k = 0; k < 100000 && integrate_time(m->integrator) < end && !lost;
        k++)
-    lost = integrate_step(m.integrator) != GSL_SUCCESS;
-  const double *y = integrate_state(m.integrator);
+    lost = integrate_step(m->integrator) != GSL_SUCCESS;
+  const double *y = integrate_state(m->integrator);
   const double height = wall ? y[2] : y[2] - y[8];
   const double speed = wall ? y[5] : y[5] - y[11];
-  if (lost || integrate_time(m.integrator) < end)
+  if (lost || integrate_time(m->integrator) < end)
     *outcome = FAILED;
   else if (speed < 0)
     *outcome = height < 0 ? MISSED : WRONG;
   else
     *outcome =
         fabs(speed / s->speed - 1) <= right && height > 0 ? BOUNCED : WRONG;
-  *evaluations += dynamics_counts(m.dynamics).evaluations;
-  motion_free(&m);
+  *evaluations += dynamics_counts(m->dynamics).evaluations;
+  motion_free(m);
   return GSL_SUCCESS;
 }
 
@@ -135,8 +135,7 @@ int verb_tunnel(int argc, char **argv) {
           shot.distance = 2 + (double)k / (double)runs;
           const int status = shoot(&shot, &integrate, &outcome, &evaluations);
           if (status != GSL_SUCCESS)
-            die(status == GSL_EINVAL ? EXIT_USAGE : EXIT_IO, "method %s: %s",
-                integrate.method, gsl_strerror(status));
+            die_status(status, "method %s", integrate.method);
           counts[outcome]++;
         }
         printf("%s\t%s\t%g\t%g\t%g\t%zu", integrate.method, shot.target, travel,

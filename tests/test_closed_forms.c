@@ -38,7 +38,7 @@ static const double g = 9.81;
 struct world {
   struct scene scene;
   struct bed bed;
-  struct motion motion;
+  struct motion *motion;
   double hmax; /* 0: none */
 };
 
@@ -71,28 +71,28 @@ static void world_start(struct world *w, const char *method, double step) {
                                       .hinit = 1e-4,
                                       .hmax = w->hmax,
                                       .step = step};
-  if (motion_start(&w->motion, &w->scene, &w->bed, &o,
+  if (motion_alloc(&w->motion, &w->scene, &w->bed, &o,
                    &(struct dynamics_options){.threads = 1},
                    1 / w->scene.law.kappa) != GSL_SUCCESS)
     abort();
 }
 
 static void world_free(struct world *w) {
-  motion_free(&w->motion);
+  motion_free(w->motion);
   scene_free(&w->scene);
   bed_free(&w->bed);
 }
 
 static const double *state(const struct world *w) {
-  return integrate_state(w->motion.integrator);
+  return integrate_state(w->motion->integrator);
 }
 
 static double now(const struct world *w) {
-  return integrate_time(w->motion.integrator);
+  return integrate_time(w->motion->integrator);
 }
 
 static size_t steps(const struct world *w) {
-  return integrate_counts(w->motion.integrator).accepted;
+  return integrate_counts(w->motion->integrator).accepted;
 }
 
 /* The sum of all local errors so far, in units of an unknown's scale. */
@@ -104,7 +104,7 @@ static double errors(const struct world *w) {
 static const size_t most_steps = 200000;
 
 static bool step(struct world *w) {
-  return (integrate_step(w->motion.integrator) == GSL_SUCCESS &&
+  return (integrate_step(w->motion->integrator) == GSL_SUCCESS &&
           steps(w) < most_steps) ||
          CHECK(!"a step is taken");
 }
@@ -119,8 +119,8 @@ static bool reach(struct world *w, double t) {
 
 static double component_at(const struct world *w, double t, size_t k) {
   double y[64];
-  if (dynamics_dimension(w->motion.dynamics) > COUNT(y) ||
-      integrate_at(w->motion.integrator, t, y) != GSL_SUCCESS)
+  if (dynamics_dimension(w->motion->dynamics) > COUNT(y) ||
+      integrate_at(w->motion->integrator, t, y) != GSL_SUCCESS)
     return GSL_NAN;
   return y[k];
 }
@@ -235,7 +235,7 @@ static void elastic_contact(const struct elastic *c, const char *method) {
                     GSL_MAX(c->v0, 1));
     worst = e / tol > worst || isnan(e) ? e / tol : worst;
     lowest = GSL_MIN(lowest, gap);
-    const double before = t - integrate_last_step(w.motion.integrator);
+    const double before = t - integrate_last_step(w.motion->integrator);
     if (rate >= 0 && isnan(turn)) {
       turn = find_root(elastic_rate, &w, before, t);
       /* between the nodes: h^4/384 times the fourth derivative, for tanh
@@ -724,14 +724,14 @@ static void energy(unsigned long seed, const char *method) {
     }
   }
   world_start(&w, method, 0);
-  const double before = dynamics_kinetic(w.motion.dynamics, state(&w)) +
-                        dynamics_potential(w.motion.dynamics, state(&w));
+  const double before = dynamics_kinetic(w.motion->dynamics, state(&w)) +
+                        dynamics_potential(w.motion->dynamics, state(&w));
   double moved = 0, tol = ULPS(100) * before, contacts = 0;
   while (now(&w) < 1 && step(&w)) {
     const double *y = state(&w),
-                 *dydt = integrate_derivative(w.motion.integrator);
-    const double kinetic = dynamics_kinetic(w.motion.dynamics, y);
-    const double e = kinetic + dynamics_potential(w.motion.dynamics, y);
+                 *dydt = integrate_derivative(w.motion->integrator);
+    const double kinetic = dynamics_kinetic(w.motion->dynamics, y);
+    const double e = kinetic + dynamics_potential(w.motion->dynamics, y);
     if (!(fabs(e - before) <= moved))
       moved = fabs(e - before);
     contacts = GSL_MAX(contacts, before - kinetic);
@@ -795,7 +795,7 @@ static double rebound_apex(double f0, double kappa, double e,
     const double v = state(&w)[5];
     if (rising && v <= 0)
       apex = find_root(speed_at, &w,
-                       now(&w) - integrate_last_step(w.motion.integrator),
+                       now(&w) - integrate_last_step(w.motion->integrator),
                        now(&w));
     rising = rising || v > 0;
   }
@@ -897,7 +897,7 @@ static void test_free_fall(void) {
         world_start(&w, all[m], fixed ? 0.01 : 0);
         CHECK(reach(&w, 1));
         const double t = now(&w), *y = state(&w);
-        const size_t row = dynamics_stride(w.motion.dynamics);
+        const size_t row = dynamics_stride(w.motion->dynamics);
         /* a step of s stages is a sum of so many terms of size 20 */
         const double tol = ULPS(20) * 4 * (double)(steps(&w) + 1);
         for (size_t i = 0; i < 2; i++)
@@ -929,8 +929,36 @@ static void test_domains(void) {
   CHECK(result == 7 && error == 8);
 }
 
+/* --- a sphere over the floor -----------------------------------------------*/
+
+/* The floor is added to a copy of the scene, and a scene with walls of its own
+   is refused and stays as it is. */
+static void test_over_floor(void) {
+  const struct integrate_options o = {
+      .method = "rkc", .control = "standard", .tol = TOL, .hinit = 1e-4};
+  const double x[] = {0, 0, 0.5}, v[3] = {0};
+  struct world w = world_new(1, 0.1);
+  struct motion *m = NULL;
+  CHECK(motion_alloc_over_floor(&m, &w.scene, 0.1, x, v, &o, 0) ==
+        GSL_SUCCESS);
+  CHECK(w.scene.walls_count == 0 && w.scene.walls == NULL);
+  CHECK(m && integrate_state(m->integrator)[2] == 0.5);
+  struct motion *refused = NULL;
+  CHECK(motion_alloc_over_floor(&refused, &w.scene, -0.1, x, v, &o, 0) ==
+        GSL_EINVAL);
+  world_floor(&w);
+  CHECK(motion_alloc_over_floor(&refused, &w.scene, 0.1, x, v, &o, 0) ==
+        GSL_EINVAL);
+  CHECK(refused == NULL && w.scene.walls_count == 1 &&
+        w.scene.walls[0].normal[2] == -1);
+  motion_free(m);
+  motion_free(refused);
+  world_free(&w);
+}
+
 int main(void) {
   gsl_set_error_handler_off();
+  test_over_floor();
   test_domains();
   test_free_fall();
   test_elastic();

@@ -67,8 +67,9 @@ static void test_against_dynamics(enum scene_model model) {
       scale[c->j] += size;
   }
   CHECK((rubbing > 0) == (model != SCENE_BASIC));
-  struct dynamics *d =
-      dynamics_alloc(&s, &b, &(struct dynamics_options){.threads = 1});
+  struct dynamics *d = NULL;
+  CHECK(dynamics_alloc(&d, &s, &b, &(struct dynamics_options){.threads = 1}) ==
+        GSL_SUCCESS);
   const size_t dim = dynamics_dimension(d), stride = dynamics_stride(d);
   double *y = calloc(dim, sizeof *y), *dydt = calloc(dim, sizeof *dydt);
   dynamics_pack(d, &b, y);
@@ -330,8 +331,9 @@ static void test_settled(void) {
     b.x[3 * i + 1] = i / 2 % 2 ? 0.13 : 0.36;
     b.x[3 * i + 2] = 0.12 + 0.21 * (double)(i / 4) + 0.005 * (double)(i % 3);
   }
-  struct dynamics *d =
-      dynamics_alloc(&s, &b, &(struct dynamics_options){.threads = 1});
+  struct dynamics *d = NULL;
+  CHECK(dynamics_alloc(&d, &s, &b, &(struct dynamics_options){.threads = 1}) ==
+        GSL_SUCCESS);
   const size_t dim = dynamics_dimension(d);
   double *y = calloc(dim, sizeof *y), *dydt = calloc(dim, sizeof *dydt);
   double *scale = calloc(dim, sizeof *scale);

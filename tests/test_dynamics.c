@@ -126,8 +126,8 @@ static int rates(struct dynamics *d, const struct bed *b, double *v, double *a,
 
 static struct dynamics *new_dynamics(const struct sample *s,
                                      const struct dynamics_options *o) {
-  struct dynamics *d = dynamics_alloc(&s->scene, &s->bed, o);
-  if (!CHECK(d != NULL))
+  struct dynamics *d = NULL;
+  if (!CHECK(dynamics_alloc(&d, &s->scene, &s->bed, o) == GSL_SUCCESS))
     abort();
   return d;
 }
@@ -1242,16 +1242,19 @@ static void test_alloc(gsl_rng *rng) {
   dynamics_free(e);
   dynamics_free(NULL);
 
+  struct dynamics *none = NULL;
   static const double bad[] = {0, -0.1, NAN, -INFINITY};
   for (size_t k = 0; k < 8; k++) {
     struct sample wrong = random_sample(rng, &p);
     (k < 4 ? wrong.bed.r : wrong.bed.m)[k % 5] = bad[k % 4];
-    CHECK(dynamics_alloc(&wrong.scene, &wrong.bed, &cells) == NULL);
+    CHECK(dynamics_alloc(&none, &wrong.scene, &wrong.bed, &cells) ==
+          GSL_EINVAL);
     sample_free(&wrong);
   }
   struct sample empty = {.scene = scene_default()};
   CHECK(bed_alloc(&empty.bed, 0) == GSL_SUCCESS);
-  CHECK(dynamics_alloc(&empty.scene, &empty.bed, &cells) == NULL);
+  CHECK(dynamics_alloc(&none, &empty.scene, &empty.bed, &cells) == GSL_EINVAL);
+  CHECK(none == NULL); /* outputs are untouched */
   sample_free(&empty);
 }
 

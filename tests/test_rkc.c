@@ -611,7 +611,7 @@ static void bench_open(struct bench *b, enum scene_model model, size_t n,
   pressed_bed(&b->bed, n, spacing, speed, seed);
   const struct dynamics_options one = {.threads = 1};
   if (scene_add_box(&b->scene, 0.4, 0.4) != GSL_SUCCESS ||
-      !(b->d = dynamics_alloc(&b->scene, &b->bed, &one)))
+      dynamics_alloc(&b->d, &b->scene, &b->bed, &one) != GSL_SUCCESS)
     exit(99);
   b->dim = dynamics_dimension(b->d);
   b->y = numbers(b->dim);

@@ -212,17 +212,17 @@ static bool settled(struct scene *s, struct bed *b, size_t n,
         0.12 + 0.22 * (double)(i / 4)};
     memcpy(b->x + 3 * i, at, sizeof at);
   }
-  struct motion m;
+  struct motion *m = NULL;
   const struct integrate_options o = {
       .method = "rkc", .control = "predictive", .tol = 1e-4, .hinit = 1e-3};
-  if (motion_start(&m, s, b, &o, &(struct dynamics_options){false, 1},
+  if (motion_alloc(&m, s, b, &o, &(struct dynamics_options){false, 1},
                    1 / s->law.kappa) != GSL_SUCCESS)
     return false;
   bool ok = true;
-  while (ok && integrate_time(m.integrator) < time)
-    ok = integrate_step(m.integrator) == GSL_SUCCESS;
-  dynamics_unpack(m.dynamics, integrate_state(m.integrator), b);
-  motion_free(&m);
+  while (ok && integrate_time(m->integrator) < time)
+    ok = integrate_step(m->integrator) == GSL_SUCCESS;
+  dynamics_unpack(m->dynamics, integrate_state(m->integrator), b);
+  motion_free(m);
   return ok;
 }
 
@@ -254,8 +254,9 @@ static void test_bed_radius(void) {
     struct bed bed;
     if (!CHECK(settled(&scene, &bed, 16, models[k], 0.35)))
       continue;
-    struct dynamics *d =
-        dynamics_alloc(&scene, &bed, &(struct dynamics_options){false, 1});
+    struct dynamics *d = NULL;
+    CHECK(dynamics_alloc(&d, &scene, &bed,
+                         &(struct dynamics_options){false, 1}) == GSL_SUCCESS);
     const size_t dim = dynamics_dimension(d);
     double *y = numbers(dim), *f = numbers(dim);
     dynamics_pack(d, &bed, y);
@@ -324,11 +325,12 @@ static void test_survey(gsl_rng *rng) {
         }
       }
     }
-    struct dynamics *d =
-        dynamics_alloc(&s, &b, &(struct dynamics_options){false, 1});
+    struct dynamics *d = NULL;
+    CHECK(dynamics_alloc(&d, &s, &b, &(struct dynamics_options){false, 1}) ==
+          GSL_SUCCESS);
     double *y = numbers(dynamics_dimension(d));
     dynamics_pack(d, &b, y);
-    struct dynamics_survey v;
+    struct survey v;
     CHECK(dynamics_survey(d, y, &v) == GSL_SUCCESS);
     const double tol = 1e3 * DBL_EPSILON; /* of exponents up to 150 */
     bool ok = CHECK_CLOSE(v.gravity, gravity, tol * 30 * (double)n);
@@ -372,37 +374,37 @@ static void test_bits(const char *method, enum scene_model model) {
                                       .hinit = 1e-3,
                                       .step =
                                           strcmp(method, "verlet") ? 0 : 1e-4};
-  struct motion m[2];
+  struct motion *m[2] = {NULL};
   double *y[2];
   for (int look = 0; look < 2; look++) {
-    CHECK(motion_start(&m[look], &scene, &bed, &o,
+    CHECK(motion_alloc(&m[look], &scene, &bed, &o,
                        &(struct dynamics_options){false, 1},
                        1 / scene.law.kappa) == GSL_SUCCESS);
-    struct dynamics *d = m[look].dynamics;
+    struct dynamics *d = m[look]->dynamics;
     const size_t dim = dynamics_dimension(d);
     const gsl_odeiv2_system system = {dynamics_rhs, NULL, dim, d};
     struct stiffness *s = stiffness_alloc(dim);
     struct stiffness_mode mode;
-    struct dynamics_survey v;
+    struct survey v;
     y[look] = numbers(dim);
     for (size_t k = 0; k < 300; k++) {
-      CHECK(integrate_step(m[look].integrator) == GSL_SUCCESS);
-      const double *now = integrate_state(m[look].integrator);
+      CHECK(integrate_step(m[look]->integrator) == GSL_SUCCESS);
+      const double *now = integrate_state(m[look]->integrator);
       if (!look)
         continue;
       CHECK(dynamics_survey(d, now, &v) == GSL_SUCCESS);
       CHECK(stiffness_estimate(s, &system, 0, now,
-                               integrate_derivative(m[look].integrator), 4,
+                               integrate_derivative(m[look]->integrator), 4,
                                &mode) == GSL_SUCCESS);
     }
-    memcpy(y[look], integrate_state(m[look].integrator), dim * sizeof(double));
+    memcpy(y[look], integrate_state(m[look]->integrator), dim * sizeof(double));
     stiffness_free(s);
   }
-  const size_t bytes = dynamics_dimension(m[0].dynamics) * sizeof(double);
+  const size_t bytes = dynamics_dimension(m[0]->dynamics) * sizeof(double);
   CHECK(!memcmp(y[0], y[1], bytes));
-  CHECK(integrate_time(m[0].integrator) == integrate_time(m[1].integrator));
+  CHECK(integrate_time(m[0]->integrator) == integrate_time(m[1]->integrator));
   for (int look = 0; look < 2; look++) {
-    motion_free(&m[look]);
+    motion_free(m[look]);
     free(y[look]);
   }
   bed_free(&bed);

@@ -5,7 +5,7 @@
 
 /* Adds what the contact does to the sphere: force and n x friction force. */
 static void add_contact(const struct contact_law *law,
-                        const struct kernel_features has, const double n[3],
+                        const struct contact_features has, const double n[3],
                         double gap, const double w[3], const double s[3],
                         double force[3], double torque[3]) {
   if (gap > law->lmax)
@@ -23,54 +23,54 @@ static void add_contact(const struct contact_law *law,
   vec3_axpy(1, nxf, torque);
 }
 
-bool allpairs_rates(const struct kernel_data *k, size_t walls, size_t n,
-                    const double *y, double *dydt, size_t from, size_t to) {
-  const size_t stride = k->stride;
-  const bool spin = k->has.rotation;
+bool allpairs_rates(const struct contact_list *list, const double *y,
+                    double *dydt, size_t from, size_t to) {
+  const size_t stride = list->stride;
+  const bool spin = list->has.rotation;
   double checksum = 0;
   for (size_t i = from; i < to; i++) {
     const double *p = y + i * stride;
-    const double ri = k->radius[i];
+    const double ri = list->radius[i];
     double force[3] = {0}, torque[3] = {0};
-    for (size_t j = 0; j < n; j++) {
+    for (size_t j = 0; j < list->rows; j++) {
       if (j == i)
         continue;
       const double *q = y + j * stride;
-      const double rj = k->radius[j];
+      const double rj = list->radius[j];
       double u[3], w[3], s[3] = {0};
       vec3_sub(p, q, u);
       const double d = vec3_norm(u);
-      if (d - ri - rj > k->law.lmax)
+      if (d - ri - rj > list->law.lmax)
         continue;
       for (int c = 0; c < 3; c++)
         u[c] /= d;
-      vec3_sub(p + 3, q + 3, w);
+      vec3_sub(p + ROW_V, q + ROW_V, w);
       if (spin) {
-        vec3_axpy(ri, p + 6, s);
-        vec3_axpy(rj, q + 6, s);
+        vec3_axpy(ri, p + ROW_W, s);
+        vec3_axpy(rj, q + ROW_W, s);
       }
-      add_contact(&k->law, k->has, u, d - ri - rj, w, s, force, torque);
+      add_contact(&list->law, list->has, u, d - ri - rj, w, s, force, torque);
     }
-    for (size_t m = 0; m < walls; m++) {
-      const struct wall *wall = &k->walls[m];
+    for (size_t m = 0; m < list->walls_count; m++) {
+      const struct wall *wall = &list->walls[m];
       double normal[3], s[3] = {0};
       for (int c = 0; c < 3; c++)
         normal[c] = -wall->normal[c];
       if (spin)
-        vec3_axpy(ri, p + 6, s);
-      add_contact(&k->law, k->has, normal, wall_distance(wall, p) - ri, p + 3,
-                  s, force, torque);
+        vec3_axpy(ri, p + ROW_W, s);
+      add_contact(&list->law, list->has, normal, wall_distance(wall, p) - ri,
+                  p + ROW_V, s, force, torque);
     }
     double *rate = dydt + i * stride;
     for (int c = 0; c < 3; c++) {
-      rate[c] = p[3 + c];
-      rate[3 + c] = k->gravity[c] + force[c] / k->mass[i];
-      checksum += rate[c] + rate[3 + c] + 0 * p[c];
+      rate[c] = p[ROW_V + c];
+      rate[ROW_V + c] = list->gravity[c] + force[c] / list->mass[i];
+      checksum += rate[c] + rate[ROW_V + c] + 0 * p[c];
     }
     if (spin)
       for (int c = 0; c < 3; c++) {
-        rate[6 + c] = -2.5 * torque[c] / (k->mass[i] * ri);
-        checksum += rate[6 + c] + 0 * p[6 + c]; /* free spins too */
+        rate[ROW_W + c] = -2.5 * torque[c] / (list->mass[i] * ri);
+        checksum += rate[ROW_W + c] + 0 * p[ROW_W + c]; /* free spins too */
       }
   }
   return isfinite(checksum);

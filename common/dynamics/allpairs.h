@@ -5,10 +5,12 @@
 #ifndef ALLPAIRS_H
 #define ALLPAIRS_H
 
-#include "dynamics/kernel.h"
+#include "dynamics/contact_list.h"
 
-/* Rates of spheres [from, to) of n; false if they are not all finite. */
-bool allpairs_rates(const struct kernel_data *k, size_t walls, size_t n,
-                    const double *y, double *dydt, size_t from, size_t to);
+/* Rates of rows [from, to); false if they are not all finite. Of the list only
+   what is the scene's and the spheres' is used, not its contacts. Safe in any
+   thread. Tested in tests/test_dynamics.c. */
+bool allpairs_rates(const struct contact_list *list, const double *y,
+                    double *dydt, size_t from, size_t to);
 
 #endif

@@ -2,8 +2,7 @@
 /* Right-hand side of the equations of motion (2.13)-(2.15) as a gsl_odeiv2
    system.
 
-   The state vector has one row a sphere, {x, y, z, vx, vy, vz} and, only where
-   the scene has friction and rotation, {wx, wy, wz}: 6n or 9n unknowns. Beds of
+   The state vector has one row per sphere (row.h): 6n or 9n unknowns. Beds of
    1024 spheres and more have their rows in the order of space. One
    struct dynamics serves one integration at a time; the evaluation itself is
    parallel with OpenMP and gives the same bits for any number of threads.
@@ -13,6 +12,8 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include "dynamics/row.h"
+#include "dynamics/survey.h"
 #include "model/bed.h"
 #include "model/scene.h"
 #include "steppers/stage.h"
@@ -29,13 +30,14 @@ struct dynamics_counts {
   size_t contacts;            /* in the list now: pairs and walls */
 };
 
-/* Prepares a scene and its spheres; keeps no pointer to either. NULL if there
-   is no memory, no sphere, or a radius or mass is not positive. */
-struct dynamics *dynamics_alloc(const struct scene *s, const struct bed *b,
-                                const struct dynamics_options *o);
+/* Prepares a scene and its spheres; keeps no pointer to either. GSL_EINVAL if
+   there is no sphere, more than 2^32 - 2 of them, or a radius or mass is not
+   positive; GSL_ENOMEM. Tested in tests/test_memory.c too. */
+int dynamics_alloc(struct dynamics **out, const struct scene *s,
+                   const struct bed *b, const struct dynamics_options *o);
 void dynamics_free(struct dynamics *d);
 
-size_t dynamics_stride(const struct dynamics *d);    /* 6 or 9 */
+size_t dynamics_stride(const struct dynamics *d);    /* a row's, row.h */
 size_t dynamics_dimension(const struct dynamics *d); /* stride * n */
 struct dynamics_counts dynamics_counts(const struct dynamics *d);
 const char *dynamics_kernel(const struct dynamics *d); /* instruction set */
@@ -71,24 +73,9 @@ void dynamics_scale(const struct dynamics *d, double scale[]);
 double dynamics_kinetic(const struct dynamics *d, const double y[]);
 double dynamics_potential(struct dynamics *d, const double y[]);
 
-/* What the contacts of a state say. */
-struct dynamics_survey {
-  double gravity;  /* J, from the origin */
-  double stored;   /* J in contacts, each F/kappa */
-  size_t contacts; /* within lmax */
-  /* Deepest overlap of any contact, in radii of the smaller sphere (a wall has
-     none), and a sphere that has it; 0 where none overlap. */
-  double overlap;
-  size_t sphere;
-  /* Least distance of a listed centre from its wall, negative outside (m), the
-     sphere and the wall; GSL_POSINF where no sphere is near a wall. */
-  double inside;
-  size_t outsider, wall;
-};
-
-/* May rebuild the pair list. GSL_SUCCESS, or an error as of dynamics_rhs. */
-int dynamics_survey(struct dynamics *d, const double y[],
-                    struct dynamics_survey *s);
+/* What the contacts of a state say. May rebuild the pair list. GSL_SUCCESS, or
+   an error as of dynamics_rhs. */
+int dynamics_survey(struct dynamics *d, const double y[], struct survey *s);
 
 /* Largest speed of any sphere's surface, |v| or r |w| (m/s). */
 double dynamics_fastest(const struct dynamics *d, const double y[]);

@@ -47,7 +47,7 @@ static void add_matrix(double a, const matrix x, matrix y) {
 
 /* curvature: 1/d for two spheres, 0 for a wall, so that dn/du = curvature P. */
 static void differentiate(const struct contact_law *c,
-                          const struct kernel_features has, const double n[3],
+                          const struct contact_features has, const double n[3],
                           double gap, double curvature, const double w[3],
                           const double s[3], struct derivatives *d) {
   memset(d, 0, sizeof *d);
@@ -132,63 +132,65 @@ static void add_block(const struct dense *m, size_t i, size_t a, size_t j,
 /* Rates of body i by the unknowns of body j. sign: that of u's and w's
    derivative by them; the torque has the sign of the force's body taken out
    already, since it is the same for both. */
-static void add_body(const struct kernel_data *k, const struct dense *m,
+static void add_body(const struct contact_list *list, const struct dense *m,
                      size_t i, size_t j, double force_sign, double sign,
                      const struct derivatives *d) {
-  const double a = force_sign / k->mass[i];
-  add_block(m, i, 3, j, 0, a * sign, d->force_u);
-  add_block(m, i, 3, j, 3, a * sign, d->force_w);
-  if (!k->has.rotation)
+  const double a = force_sign / list->mass[i];
+  add_block(m, i, ROW_V, j, ROW_X, a * sign, d->force_u);
+  add_block(m, i, ROW_V, j, ROW_V, a * sign, d->force_w);
+  if (!list->has.rotation)
     return;
-  const double r = k->radius[j], b = -2.5 / (k->mass[i] * k->radius[i]);
-  add_block(m, i, 3, j, 6, a * r, d->force_s);
-  add_block(m, i, 6, j, 0, b * sign, d->torque_u);
-  add_block(m, i, 6, j, 3, b * sign, d->torque_w);
-  add_block(m, i, 6, j, 6, b * r, d->torque_s);
+  const double r = list->radius[j],
+               b = -2.5 / (list->mass[i] * list->radius[i]);
+  add_block(m, i, ROW_V, j, ROW_W, a * r, d->force_s);
+  add_block(m, i, ROW_W, j, ROW_X, b * sign, d->torque_u);
+  add_block(m, i, ROW_W, j, ROW_V, b * sign, d->torque_w);
+  add_block(m, i, ROW_W, j, ROW_W, b * r, d->torque_s);
 }
 
-void jacobian_dense(const struct kernel_data *k, size_t n, const double *y,
+void jacobian_dense(const struct contact_list *list, const double *y,
                     double *dfdy) {
-  const size_t stride = k->stride;
+  const size_t n = list->rows, stride = list->stride;
   const struct dense m = {dfdy, n * stride, stride};
   memset(dfdy, 0, m.dimension * m.dimension * sizeof *dfdy);
   for (size_t i = 0; i < n; i++)
     for (size_t c = 0; c < 3; c++)
-      dfdy[(i * stride + c) * m.dimension + i * stride + 3 + c] = 1;
+      dfdy[(i * stride + c) * m.dimension + i * stride + ROW_V + c] = 1;
 
   struct derivatives d;
-  for (size_t c = 0; c < k->pairs; c++) {
-    const size_t i = k->i[c], j = k->j[c];
+  for (size_t c = 0; c < list->near.count; c++) {
+    const size_t i = list->near.i[c], j = list->near.j[c];
     const double *p = y + i * stride, *q = y + j * stride;
-    const double ri = k->radius[i], rj = k->radius[j];
+    const double ri = list->radius[i], rj = list->radius[j];
     double u[3], w[3], s[3] = {0};
     vec3_sub(p, q, u);
-    vec3_sub(p + 3, q + 3, w);
-    if (k->has.rotation) {
-      vec3_axpy(ri, p + 6, s);
-      vec3_axpy(rj, q + 6, s);
+    vec3_sub(p + ROW_V, q + ROW_V, w);
+    if (list->has.rotation) {
+      vec3_axpy(ri, p + ROW_W, s);
+      vec3_axpy(rj, q + ROW_W, s);
     }
     const double distance = vec3_norm(u);
     const double normal[3] = {u[0] / distance, u[1] / distance,
                               u[2] / distance};
-    differentiate(&k->law, k->has, normal, distance - ri - rj, 1 / distance, w,
-                  s, &d);
-    add_body(k, &m, i, i, 1, 1, &d);
-    add_body(k, &m, i, j, 1, -1, &d);
-    add_body(k, &m, j, i, -1, 1, &d);
-    add_body(k, &m, j, j, -1, -1, &d);
+    differentiate(&list->law, list->has, normal, distance - ri - rj,
+                  1 / distance, w, s, &d);
+    add_body(list, &m, i, i, 1, 1, &d);
+    add_body(list, &m, i, j, 1, -1, &d);
+    add_body(list, &m, j, i, -1, 1, &d);
+    add_body(list, &m, j, j, -1, -1, &d);
   }
-  for (size_t c = 0; c < k->wall_contacts; c++) {
-    const size_t i = k->wall_sphere[c];
-    const struct wall *wall = &k->walls[k->wall_id[c]];
+  for (size_t c = 0; c < list->wall_contacts; c++) {
+    const size_t i = list->wall_row[c];
+    const struct wall *wall = &list->walls[list->wall_id[c]];
     const double *p = y + i * stride;
     double s[3] = {0}, normal[3];
     for (int a = 0; a < 3; a++)
       normal[a] = -wall->normal[a];
-    if (k->has.rotation)
-      vec3_axpy(k->radius[i], p + 6, s);
-    differentiate(&k->law, k->has, normal,
-                  wall_distance(wall, p) - k->radius[i], 0, p + 3, s, &d);
-    add_body(k, &m, i, i, 1, 1, &d);
+    if (list->has.rotation)
+      vec3_axpy(list->radius[i], p + ROW_W, s);
+    differentiate(&list->law, list->has, normal,
+                  wall_distance(wall, p) - list->radius[i], 0, p + ROW_V, s,
+                  &d);
+    add_body(list, &m, i, i, 1, 1, &d);
   }
 }

@@ -3,10 +3,11 @@
 #ifndef JACOBIAN_H
 #define JACOBIAN_H
 
-#include "dynamics/kernel.h"
+#include "dynamics/contact_list.h"
 
-/* Fills dfdy, (stride n)^2 doubles row by row, for the contacts in k. */
-void jacobian_dense(const struct kernel_data *k, size_t n, const double *y,
+/* Fills dfdy, (stride rows)^2 doubles row by row, for the list's contacts. Safe
+   in any thread. Tested in tests/test_dynamics.c. */
+void jacobian_dense(const struct contact_list *list, const double *y,
                     double *dfdy);
 
 #endif

@@ -63,13 +63,13 @@ INLINE void transpose(vec4 r[4]) {
 }
 
 /* One pair's differences of positions and velocities and its sum of r w. */
-INLINE void load_pair(const struct kernel_data *k, const double *y, size_t i,
-                      size_t j, size_t c, struct block *b,
-                      const struct kernel_features has) {
-  const size_t stride = has.rotation ? 9 : 6;
+INLINE void load_pair(const struct contact_list *list, const double *y,
+                      size_t i, size_t j, size_t c, struct block *b,
+                      const struct contact_features has) {
+  const size_t stride = has.rotation ? ROW_SPIN : ROW_PLAIN;
   const double *p = y + i * stride, *q = y + j * stride;
-  const double ri = has.uniform ? 1 : k->radius[i],
-               rj = has.uniform ? 1 : k->radius[j];
+  const double ri = has.uniform ? 1 : list->radius[i],
+               rj = has.uniform ? 1 : list->radius[j];
   b->nx[c] = p[0] - q[0];
   b->ny[c] = p[1] - q[1];
   b->nz[c] = p[2] - q[2];
@@ -88,8 +88,8 @@ INLINE void load_pair(const struct kernel_data *k, const double *y, size_t i,
 /* The same for four pairs of equal spheres. */
 INLINE void load_four(const double *y, const uint32_t *i, const uint32_t *j,
                       size_t c, struct block *b,
-                      const struct kernel_features has) {
-  const size_t stride = has.rotation ? 9 : 6;
+                      const struct contact_features has) {
+  const size_t stride = has.rotation ? ROW_SPIN : ROW_PLAIN;
   const vec4 plus = {-1, -1, 1, 1}; /* velocities less, spins and */
   vec4 u[4], w[4];
   for (int l = 0; l < 4; l++) {
@@ -118,21 +118,21 @@ INLINE void load_four(const double *y, const uint32_t *i, const uint32_t *j,
 }
 
 /* (2.2): separation vectors, relative velocities and spins of pairs. */
-INLINE void load_pairs(const struct kernel_data *k, const double *y,
+INLINE void load_pairs(const struct contact_list *list, const double *y,
                        const uint32_t *i, const uint32_t *j, size_t count,
-                       struct block *b, const struct kernel_features has) {
+                       struct block *b, const struct contact_features has) {
   size_t c = 0;
   if (WIDE && has.uniform)
     for (; c + 4 <= count; c += 4)
       load_four(y, i + c, j + c, c, b, has);
   for (; c < count; c++)
-    load_pair(k, y, i[c], j[c], c, b, has);
+    load_pair(list, y, i[c], j[c], c, b, has);
 }
 
 /* Distances and normals of pairs, in place of separation vectors. */
-INLINE void normalise(const struct kernel_data *k, size_t count,
-                      struct block *b, const struct kernel_features has) {
-  const double r = k->radius[0];
+INLINE void normalise(const struct contact_list *list, size_t count,
+                      struct block *b, const struct contact_features has) {
+  const double r = list->radius[0];
 #pragma omp simd
   for (size_t l = 0; l < count; l++) {
     const double d =
@@ -151,15 +151,15 @@ INLINE void normalise(const struct kernel_data *k, size_t count,
 }
 
 /* A wall is a body at rest with the normal -n_k, (2.5) and (2.10). */
-INLINE void load_walls(const struct kernel_data *k, const double *y,
+INLINE void load_walls(const struct contact_list *list, const double *y,
                        size_t from, size_t count, struct block *b,
-                       const struct kernel_features has) {
-  const size_t stride = has.rotation ? 9 : 6;
+                       const struct contact_features has) {
+  const size_t stride = has.rotation ? ROW_SPIN : ROW_PLAIN;
   for (size_t c = 0; c < count; c++) {
-    const size_t i = k->wall_sphere[from + c];
-    const struct wall *w = &k->walls[k->wall_id[from + c]];
+    const size_t i = list->wall_row[from + c];
+    const struct wall *w = &list->walls[list->wall_id[from + c]];
     const double *p = y + i * stride;
-    const double r = k->radius[i];
+    const double r = list->radius[i];
     b->nx[c] = -w->normal[0];
     b->ny[c] = -w->normal[1];
     b->nz[c] = -w->normal[2];
@@ -190,7 +190,7 @@ INLINE size_t pad(struct block *b, size_t count) {
 
 /* The law: contact.h, written for columns. */
 INLINE void evaluate(const struct contact_law *law, size_t count,
-                     struct block *b, const struct kernel_features has) {
+                     struct block *b, const struct contact_features has) {
   const double f0 = law->f0, kappa = law->kappa, lmax = law->lmax;
   const double e2 = law->restitution * law->restitution;
   const double psi2 = 2 * law->psi;
@@ -239,7 +239,7 @@ INLINE void evaluate(const struct contact_law *law, size_t count,
 
 /* Four contacts' results as rows. */
 INLINE void unload_four(const struct block *b, size_t c, vec4 f[4], vec4 t[4],
-                        const struct kernel_features has) {
+                        const struct contact_features has) {
   if (WIDE) {
     f[0] = vec4_load(b->fx + c);
     f[1] = vec4_load(b->fy + c);
@@ -262,11 +262,11 @@ INLINE void unload_four(const struct block *b, size_t c, vec4 f[4], vec4 t[4],
   }
 }
 
-INLINE double *sum_of(const struct kernel_part *part, size_t i) {
-  return part->sums + (i & part->mask) * KERNEL_SUM;
+INLINE double *sum_of(const struct contact_part *part, size_t i) {
+  return part->sums + (i & part->mask) * CONTACT_SUM;
 }
 
-INLINE bool within(const struct kernel_part *part, size_t i) {
+INLINE bool within(const struct contact_part *part, size_t i) {
   return i >= part->from && i < part->to;
 }
 
@@ -274,8 +274,8 @@ INLINE bool within(const struct kernel_part *part, size_t i) {
    partner's sum stays in registers over its run of pairs. */
 INLINE void scatter_pairs(const struct block *b, const uint32_t *i,
                           const uint32_t *j, size_t count,
-                          const struct kernel_part *part,
-                          const struct kernel_features has) {
+                          const struct contact_part *part,
+                          const struct contact_features has) {
   size_t owner = i[0];
   double *sum = sum_of(part, owner);
   bool ours = within(part, owner);
@@ -320,32 +320,32 @@ INLINE void scatter_pairs(const struct block *b, const uint32_t *i,
   }
 }
 
-INLINE void add_pairs(const struct kernel_data *k, const double *y,
+INLINE void add_pairs(const struct contact_list *list, const double *y,
                       const uint32_t *i, const uint32_t *j, size_t count,
-                      const struct kernel_part *part,
-                      const struct kernel_features has) {
+                      const struct contact_part *part,
+                      const struct contact_features has) {
   struct block b;
   for (size_t from = 0; from < count; from += BLOCK) {
     const size_t some = count - from < BLOCK ? count - from : BLOCK;
-    load_pairs(k, y, i + from, j + from, some, &b, has);
+    load_pairs(list, y, i + from, j + from, some, &b, has);
     const size_t padded = pad(&b, some);
-    normalise(k, padded, &b, has);
-    evaluate(&k->law, padded, &b, has);
+    normalise(list, padded, &b, has);
+    evaluate(&list->law, padded, &b, has);
     scatter_pairs(&b, i + from, j + from, some, part, has);
   }
 }
 
-INLINE void add_walls(const struct kernel_data *k, const double *y, size_t from,
-                      size_t to, const struct kernel_part *part,
-                      const struct kernel_features has) {
+INLINE void add_walls(const struct contact_list *list, const double *y,
+                      size_t from, size_t to, const struct contact_part *part,
+                      const struct contact_features has) {
   struct block b;
-  const size_t end = k->wall_first[to];
-  for (size_t w = k->wall_first[from]; w < end; w += BLOCK) {
+  const size_t end = list->wall_first[to];
+  for (size_t w = list->wall_first[from]; w < end; w += BLOCK) {
     const size_t some = end - w < BLOCK ? end - w : BLOCK;
-    load_walls(k, y, w, some, &b, has);
-    evaluate(&k->law, pad(&b, some), &b, has);
+    load_walls(list, y, w, some, &b, has);
+    evaluate(&list->law, pad(&b, some), &b, has);
     for (size_t c = 0; c < some; c++) {
-      double *sum = sum_of(part, k->wall_sphere[w + c]);
+      double *sum = sum_of(part, list->wall_row[w + c]);
       sum[0] += b.fx[c];
       sum[1] += b.fy[c];
       sum[2] += b.fz[c];
@@ -359,28 +359,29 @@ INLINE void add_walls(const struct kernel_data *k, const double *y, size_t from,
 }
 
 /* (2.13)-(2.15): torque = -r n x f, I = 2 m r^2 / 5 */
-INLINE bool finish(const struct kernel_data *k, const double *y, double *rates,
-                   size_t from, size_t to, const struct kernel_part *part,
-                   const struct kernel_features has) {
-  const size_t stride = has.rotation ? 9 : 6;
+INLINE bool finish(const struct contact_list *list, const double *y,
+                   double *rates, size_t from, size_t to,
+                   const struct contact_part *part,
+                   const struct contact_features has) {
+  const size_t stride = has.rotation ? ROW_SPIN : ROW_PLAIN;
   double checksum = 0;
   for (size_t i = from; i < to; i++) {
     const double *state = y + i * stride;
     double *rate = rates + (i - from) * stride, *sum = sum_of(part, i);
-    const double inverse_mass = 1 / k->mass[i];
+    const double inverse_mass = 1 / list->mass[i];
     for (int c = 0; c < 3; c++) {
-      rate[c] = state[3 + c];
-      rate[3 + c] = k->gravity[c] + inverse_mass * sum[c];
-      checksum += rate[c] + rate[3 + c];
+      rate[c] = state[ROW_V + c];
+      rate[ROW_V + c] = list->gravity[c] + inverse_mass * sum[c];
+      checksum += rate[c] + rate[ROW_V + c];
     }
     if (has.rotation) {
-      const double scale = -2.5 * inverse_mass / k->radius[i];
+      const double scale = -2.5 * inverse_mass / list->radius[i];
       for (int c = 0; c < 3; c++) {
-        rate[6 + c] = scale * sum[4 + c];
-        checksum += rate[6 + c] + 0 * state[6 + c]; /* free spins too */
+        rate[ROW_W + c] = scale * sum[4 + c];
+        checksum += rate[ROW_W + c] + 0 * state[ROW_W + c]; /* free spins too */
       }
     }
-    for (int c = 0; c < KERNEL_SUM; c++)
+    for (int c = 0; c < CONTACT_SUM; c++)
       sum[c] = 0;
   }
   return isfinite(checksum);
@@ -389,7 +390,7 @@ INLINE bool finish(const struct kernel_data *k, const double *y, double *rates,
 /* One specialised loop for each combination of features. */
 #define DISPATCH(call)                                                         \
   do {                                                                         \
-    const struct kernel_features h = k->has;                                   \
+    const struct contact_features h = list->has;                               \
     if (h.rotation)                                                            \
       DISPATCH_REST(call, true, true);                                         \
     else if (h.friction)                                                       \
@@ -400,39 +401,39 @@ INLINE bool finish(const struct kernel_data *k, const double *y, double *rates,
 #define DISPATCH_REST(call, friction, rotation)                                \
   do {                                                                         \
     if (h.elastic && h.uniform)                                                \
-      call(((struct kernel_features){friction, rotation, true, true}));        \
+      call(((struct contact_features){friction, rotation, true, true}));       \
     else if (h.elastic)                                                        \
-      call(((struct kernel_features){friction, rotation, true, false}));       \
+      call(((struct contact_features){friction, rotation, true, false}));      \
     else if (h.uniform)                                                        \
-      call(((struct kernel_features){friction, rotation, false, true}));       \
+      call(((struct contact_features){friction, rotation, false, true}));      \
     else                                                                       \
-      call(((struct kernel_features){friction, rotation, false, false}));      \
+      call(((struct contact_features){friction, rotation, false, false}));     \
   } while (0)
 
-static void add_pairs_any(const struct kernel_data *k, const double *y,
+static void add_pairs_any(const struct contact_list *list, const double *y,
                           const uint32_t *i, const uint32_t *j, size_t count,
-                          const struct kernel_part *part) {
-#define CALL(has) add_pairs(k, y, i, j, count, part, has)
+                          const struct contact_part *part) {
+#define CALL(has) add_pairs(list, y, i, j, count, part, has)
   DISPATCH(CALL);
 #undef CALL
 }
 
-static void add_walls_any(const struct kernel_data *k, const double *y,
+static void add_walls_any(const struct contact_list *list, const double *y,
                           size_t from, size_t to,
-                          const struct kernel_part *part) {
-#define CALL(has) add_walls(k, y, from, to, part, has)
+                          const struct contact_part *part) {
+#define CALL(has) add_walls(list, y, from, to, part, has)
   DISPATCH(CALL);
 #undef CALL
 }
 
-static bool finish_any(const struct kernel_data *k, const double *y,
+static bool finish_any(const struct contact_list *list, const double *y,
                        double *rates, size_t from, size_t to,
-                       const struct kernel_part *part) {
-  struct kernel_features has = {.rotation = true};
-  if (k->has.rotation)
-    return finish(k, y, rates, from, to, part, has);
+                       const struct contact_part *part) {
+  struct contact_features has = {.rotation = true};
+  if (list->has.rotation)
+    return finish(list, y, rates, from, to, part, has);
   has.rotation = false;
-  return finish(k, y, rates, from, to, part, has);
+  return finish(list, y, rates, from, to, part, has);
 }
 
 extern const struct kernel JOIN(kernel_, KERNEL_ISA);

@@ -25,43 +25,61 @@ static double step_limit(const double y[], const double dydt[], void *params) {
   return dynamics_step_limit(m->dynamics, y, dydt, m->travel);
 }
 
-int motion_start(struct motion *m, const struct scene *s, const struct bed *b,
-                 const struct integrate_options *o,
-                 const struct dynamics_options *d, double travel) {
-  *m = (struct motion){.dynamics = dynamics_alloc(s, b, d), .travel = travel};
-  if (!m->dynamics)
-    return GSL_EINVAL;
+static int start_integrator(struct motion *m, const struct bed *b,
+                            const struct integrate_options *o,
+                            const struct dynamics_options *d) {
   const size_t dim = dynamics_dimension(m->dynamics);
-  double *y = malloc(2 * dim * sizeof *y), *scale = y + dim;
+  double *y = malloc(dim * sizeof *y), *scale = malloc(dim * sizeof *scale);
   int status = GSL_ENOMEM;
-  if (y) {
+  if (y && scale) {
     dynamics_pack(m->dynamics, b, y);
     dynamics_scale(m->dynamics, scale);
-    status = integrate_alloc(&m->integrator, o,
-                             &(struct integrate_problem){
-                                 .system = {.function = rhs,
-                                            .jacobian = jacobian,
-                                            .dimension = dim,
-                                            .params = m},
-                                 .scale = scale,
-                                 .row = dynamics_stride(m->dynamics),
-                                 .positions = 3,
-                                 .step_limit = travel > 0 ? step_limit : NULL,
-                                 .stage = d->all_pairs ? NULL : stage,
-                                 .threads = d->threads},
-                             b->t, y);
+    status =
+        integrate_alloc(&m->integrator, o,
+                        &(struct integrate_problem){
+                            .system = {.function = rhs,
+                                       .jacobian = jacobian,
+                                       .dimension = dim,
+                                       .params = m},
+                            .scale = scale,
+                            .row = dynamics_stride(m->dynamics),
+                            .positions = ROW_V,
+                            .step_limit = m->travel > 0 ? step_limit : NULL,
+                            .stage = d->all_pairs ? NULL : stage,
+                            .threads = d->threads},
+                        b->t, y);
   }
+  free(scale);
   free(y);
-  if (status != GSL_SUCCESS)
-    motion_free(m);
   return status;
 }
 
-int motion_start_over_floor(struct motion *m, const struct scene *s,
+int motion_alloc(struct motion **out, const struct scene *s,
+                 const struct bed *b, const struct integrate_options *o,
+                 const struct dynamics_options *d, double travel) {
+  struct motion *m = calloc(1, sizeof *m);
+  if (!m)
+    return GSL_ENOMEM;
+  m->travel = travel;
+  int status = dynamics_alloc(&m->dynamics, s, b, d);
+  if (status == GSL_SUCCESS)
+    status = start_integrator(m, b, o, d);
+  if (status != GSL_SUCCESS) {
+    motion_free(m);
+    return status;
+  }
+  *out = m;
+  return GSL_SUCCESS;
+}
+
+int motion_alloc_over_floor(struct motion **out, const struct scene *s,
                             double radius, const double x[3], const double v[3],
                             const struct integrate_options *o, double travel) {
+  if (s->walls_count > 0)
+    return GSL_EINVAL;
   struct scene floored = *s;
   struct bed bed = {0};
+  floored.walls = NULL;
   int status =
       scene_add_wall(&floored, (double[]){0, 0, 0}, (double[]){0, 0, -1});
   if (status == GSL_SUCCESS)
@@ -70,7 +88,7 @@ int motion_start_over_floor(struct motion *m, const struct scene *s,
     bed.r[0] = radius;
     memcpy(bed.x, x, 3 * sizeof *x);
     memcpy(bed.v, v, 3 * sizeof *v);
-    status = motion_start(m, &floored, &bed, o,
+    status = motion_alloc(out, &floored, &bed, o,
                           &(struct dynamics_options){.threads = 1}, travel);
   }
   bed_free(&bed);
@@ -79,7 +97,9 @@ int motion_start_over_floor(struct motion *m, const struct scene *s,
 }
 
 void motion_free(struct motion *m) {
+  if (!m)
+    return;
   integrate_free(m->integrator);
   dynamics_free(m->dynamics);
-  *m = (struct motion){0};
+  free(m);
 }

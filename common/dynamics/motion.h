@@ -14,16 +14,15 @@ struct motion {
   double travel; /* m, the furthest that a sphere may go in a step; 0: any */
 };
 
-/* Starts at b->t with b's state; keeps no pointer to the arguments, but the
-   integrator points to *m, which must stay where it is. GSL_SUCCESS,
-   GSL_EINVAL for options that do not fit together or a bed that dynamics_alloc
-   refuses, GSL_ENOMEM. */
-int motion_start(struct motion *m, const struct scene *s, const struct bed *b,
-                 const struct integrate_options *o,
+/* Starts at b->t with b's state; keeps no pointer to the arguments. travel: as
+   in struct motion. GSL_SUCCESS, GSL_EINVAL for options that do not fit
+   together or a bed that dynamics_alloc refuses, GSL_ENOMEM. */
+int motion_alloc(struct motion **out, const struct scene *s,
+                 const struct bed *b, const struct integrate_options *o,
                  const struct dynamics_options *d, double travel);
 /* The same for one sphere of unit mass over the floor z = 0, at time 0 and in
-   one thread; the scene is to have no walls of its own. */
-int motion_start_over_floor(struct motion *m, const struct scene *s,
+   one thread. GSL_EINVAL also for a scene that has walls of its own. */
+int motion_alloc_over_floor(struct motion **out, const struct scene *s,
                             double radius, const double x[3], const double v[3],
                             const struct integrate_options *o, double travel);
 void motion_free(struct motion *m);

@@ -32,6 +32,18 @@ void die(enum exit_code code, const char *format, ...) {
   exit((int)code);
 }
 
+void die_status(int status, const char *format, ...) {
+  if (status == GSL_ENOMEM)
+    die(EXIT_IO, "out of memory");
+  char what[256];
+  va_list args;
+  va_start(args, format);
+  vsnprintf(what, sizeof what, format, args);
+  va_end(args);
+  die(status == GSL_EINVAL ? EXIT_USAGE : EXIT_IO, "%s: %s", what,
+      gsl_strerror(status));
+}
+
 void warn(const char *format, ...) {
   va_list args;
   va_start(args, format);

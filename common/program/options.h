@@ -55,7 +55,12 @@ struct program {
 /* Prints "PROGRAM: MESSAGE" on one line of standard error and exits. */
 _Noreturn void die(enum exit_code code, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
-/* The same without leaving. */
+/* Leaves after a library's error, a GSL code: what was asked for cannot be had
+   (GSL_EINVAL, EXIT_USAGE), "out of memory" or another reason (EXIT_IO). What
+   format says comes before the reason. */
+_Noreturn void die_status(int status, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+/* The same as die without leaving. */
 void warn(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 /* Sets up a program (name for messages, GSL's error handler off, SIGPIPE as

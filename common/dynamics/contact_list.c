@@ -1,0 +1,330 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dynamics/contact_list.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_math.h>
+
+/* Cost of building the list, in evaluations; measured, only the skin depends
+   on it. */
+static const double build_cost = 4;
+
+/* From so many spheres on, rows are put in the order of space, so that
+   partners are near each other in memory. */
+enum { REORDER = 1024 };
+
+/* Spheres from which on threads share what is a few operations a sphere. */
+enum { WORTH_SHARING = 4096 };
+
+/* Zeroed; never NULL for want of size. */
+static void *allocate(size_t count, size_t size) {
+  return calloc(count ? count : 1, size);
+}
+
+void contact_list_free(struct contact_list *l) {
+  if (!l)
+    return;
+  neighbors_free(&l->near);
+  free(l->walls);
+  free(l->order);
+  free(l->radius);
+  free(l->mass);
+  free(l->wall_first);
+  free(l->wall_row);
+  free(l->wall_id);
+  free(l->part);
+  free(l->sums);
+  free(l->incoming);
+  free(l->in_i);
+  free(l->in_j);
+  free(l->reference);
+  free(l);
+}
+
+struct place {
+  double cell[2], z;
+  size_t sphere;
+};
+
+static int compare_places(const void *a, const void *b) {
+  const struct place *p = a, *q = b;
+  for (int k = 0; k < 2; k++)
+    if (p->cell[k] != q->cell[k])
+      return p->cell[k] < q->cell[k] ? -1 : 1;
+  if (p->z != q->z)
+    return p->z < q->z ? -1 : 1;
+  return (p->sphere > q->sphere) - (p->sphere < q->sphere);
+}
+
+/* Columns of cells one after the other, from the floor up: spheres fall along
+   their column, so the order stays good. */
+static int find_order(struct contact_list *l, const struct bed *b,
+                      double edge) {
+  for (size_t i = 0; i < b->n; i++)
+    l->order[i] = i;
+  if (b->n < REORDER)
+    return GSL_SUCCESS;
+  struct place *places = malloc(b->n * sizeof *places);
+  if (!places)
+    return GSL_ENOMEM;
+  for (size_t i = 0; i < b->n; i++) {
+    const double *x = b->x + 3 * i;
+    places[i] =
+        (struct place){{floor(x[0] / edge), floor(x[1] / edge)}, x[2], i};
+  }
+  qsort(places, b->n, sizeof *places, compare_places);
+  for (size_t i = 0; i < b->n; i++)
+    l->order[i] = places[i].sphere;
+  free(places);
+  return GSL_SUCCESS;
+}
+
+static bool bed_is_sound(const struct bed *b) {
+  if (b->n == 0 || b->n > UINT32_MAX - 1)
+    return false;
+  for (size_t i = 0; i < b->n; i++)
+    if (!(b->r[i] > 0) || !(b->m[i] > 0))
+      return false;
+  return true;
+}
+
+static int reserve_rows(struct contact_list *l, size_t walls, size_t threads) {
+  const size_t n = l->rows;
+  l->walls = allocate(walls, sizeof *l->walls);
+  l->order = allocate(n, sizeof *l->order);
+  l->radius = allocate(n, sizeof *l->radius);
+  l->mass = allocate(n, sizeof *l->mass);
+  l->wall_first = allocate(n + 1, sizeof *l->wall_first);
+  l->wall_row = allocate(n * walls, sizeof *l->wall_row);
+  l->wall_id = allocate(n * walls, sizeof *l->wall_id);
+  l->part = allocate(threads, sizeof *l->part);
+  l->incoming = allocate(threads + 1, sizeof *l->incoming);
+  l->reference = allocate(3 * n, sizeof *l->reference);
+  return l->walls && l->order && l->radius && l->mass && l->wall_first &&
+                 l->wall_row && l->wall_id && l->part && l->incoming &&
+                 l->reference
+             ? GSL_SUCCESS
+             : GSL_ENOMEM;
+}
+
+int contact_list_alloc(struct contact_list **out, const struct scene *s,
+                       const struct bed *b, size_t threads) {
+  assert(threads > 0);
+  if (!bed_is_sound(b))
+    return GSL_EINVAL;
+  struct contact_list *l = calloc(1, sizeof *l);
+  if (!l)
+    return GSL_ENOMEM;
+  l->rows = b->n;
+  l->threads = threads;
+  l->walls_count = s->walls_count;
+  int status = reserve_rows(l, s->walls_count, threads);
+  if (status == GSL_SUCCESS)
+    status = find_order(l, b, 2 * b->r[0] + s->law.lmax);
+  if (status != GSL_SUCCESS) {
+    contact_list_free(l);
+    return status;
+  }
+  for (size_t k = 0; k < s->walls_count; k++)
+    l->walls[k] = s->walls[k];
+  bool uniform = true;
+  double smallest = GSL_POSINF;
+  for (size_t i = 0; i < l->rows; i++) {
+    l->radius[i] = b->r[l->order[i]];
+    l->mass[i] = b->m[l->order[i]];
+    uniform = uniform && l->radius[i] == l->radius[0];
+    smallest = GSL_MIN(smallest, l->radius[i]);
+  }
+  l->law = s->law;
+  l->has = (struct contact_features){.friction = scene_has_friction(s),
+                                     .rotation = scene_has_rotation(s),
+                                     .elastic = s->law.restitution == 1,
+                                     .uniform = uniform};
+  l->stride = l->has.rotation ? ROW_SPIN : ROW_PLAIN;
+  for (int c = 0; c < 3; c++)
+    l->gravity[c] = s->gravity[c];
+  l->skin = 0.2 * smallest;
+  l->age = SIZE_MAX;
+  *out = l;
+  return GSL_SUCCESS;
+}
+
+/* Wider skins are rebuilt less often but hold more idle pairs; both costs are
+   equal at the best skin. overhead: idle pairs' share of an evaluation. */
+static double skin_overhead(const struct contact_list *l) {
+  return 3 * l->skin / (2 * l->radius[0] + l->law.lmax + l->skin);
+}
+
+static void tune_skin(struct contact_list *l) {
+  const double idle = skin_overhead(l) * (double)l->age;
+  const double factor = sqrt(build_cost / GSL_MAX(idle, 1e-3));
+  const double r = l->radius[0];
+  l->skin *= GSL_MIN(GSL_MAX(factor, 0.7), 1.4);
+  l->skin = GSL_MIN(GSL_MAX(l->skin, 0.02 * r), 2 * r);
+}
+
+static void list_walls(struct contact_list *l, const double *y) {
+  const double reach = l->law.lmax + l->skin;
+  size_t count = 0;
+  for (size_t i = 0; i < l->rows; i++) {
+    l->wall_first[i] = count;
+    for (size_t m = 0; m < l->walls_count; m++) {
+      const double gap =
+          wall_distance(&l->walls[m], y + i * l->stride) - l->radius[i];
+      if (gap <= reach) {
+        l->wall_row[count] = (uint32_t)i;
+        l->wall_id[count++] = (uint32_t)m;
+      }
+    }
+  }
+  l->wall_first[l->rows] = count;
+  l->wall_contacts = count;
+}
+
+/* Parts of about equal work. They decide who computes what, never what comes
+   out. */
+static void split_rows(struct contact_list *l) {
+  const size_t *first = l->near.first, *wall_first = l->wall_first;
+  const double all = (double)(first[l->rows] + wall_first[l->rows] + l->rows);
+  size_t row = 0;
+  for (size_t p = 0; p < l->threads; p++) {
+    const double until = all * (double)p / (double)l->threads;
+    while (row < l->rows &&
+           (double)(first[row] + wall_first[row] + row) < until)
+      row++;
+    l->part[p].from = row;
+    if (p)
+      l->part[p - 1].to = row;
+  }
+  l->part[l->threads - 1].to = l->rows;
+}
+
+/* Room for the sums in flight: a chunk of rows and their furthest partner. */
+static int reserve_sums(struct contact_list *l) {
+  size_t span = 0, size = 1;
+  for (size_t p = 0; p < l->near.count; p++)
+    span = GSL_MAX(span, (size_t)(l->near.j[p] - l->near.i[p]));
+  while (size < span + 2 * CONTACT_CHUNK)
+    size *= 2;
+  if (size > l->sums_size) {
+    free(l->sums);
+    l->sums = allocate(l->threads * size, CONTACT_SUM * sizeof *l->sums);
+    l->sums_size = l->sums ? size : 0;
+    if (!l->sums)
+      return GSL_ENOMEM;
+  }
+  for (size_t p = 0; p < l->threads; p++) {
+    l->part[p].sums = l->sums + p * l->sums_size * CONTACT_SUM;
+    l->part[p].mask = l->sums_size - 1;
+  }
+  return GSL_SUCCESS;
+}
+
+static size_t part_of(const struct contact_list *l, size_t row) {
+  assert(row < l->rows);
+  size_t p = 0;
+  while (row >= l->part[p].to)
+    p++;
+  return p;
+}
+
+static int reserve_incoming(struct contact_list *l, size_t count) {
+  if (count <= l->incoming_size)
+    return GSL_SUCCESS;
+  free(l->in_i);
+  free(l->in_j);
+  l->in_i = allocate(2 * count, sizeof *l->in_i);
+  l->in_j = allocate(2 * count, sizeof *l->in_j);
+  l->incoming_size = l->in_i && l->in_j ? 2 * count : 0;
+  return l->incoming_size ? GSL_SUCCESS : GSL_ENOMEM;
+}
+
+/* Counts the pairs that come into each part from earlier ones, or notes them:
+   next[p], one per part, is where part p's next one goes, and grows by what
+   came. */
+static void pass_incoming(struct contact_list *l, bool note, size_t *next) {
+  size_t p = 0;
+  for (size_t i = 0; i < l->rows; i++) {
+    while (i >= l->part[p].to)
+      p++;
+    for (size_t q = l->near.first[i]; q < l->near.first[i + 1]; q++) {
+      const uint32_t j = l->near.j[q];
+      if (j < l->part[p].to)
+        continue;
+      size_t *at = &next[part_of(l, j)];
+      if (note) {
+        l->in_i[*at] = l->near.i[q];
+        l->in_j[*at] = j;
+      }
+      ++*at;
+    }
+  }
+}
+
+static int list_incoming(struct contact_list *l) {
+  size_t *incoming = l->incoming;
+  memset(incoming, 0, (l->threads + 1) * sizeof *incoming);
+  if (l->threads == 1)
+    return GSL_SUCCESS;
+  pass_incoming(l, false, incoming + 1);
+  for (size_t p = 0; p < l->threads; p++)
+    incoming[p + 1] += incoming[p];
+  const int status = reserve_incoming(l, incoming[l->threads]);
+  if (status != GSL_SUCCESS)
+    return status;
+  pass_incoming(l, true, incoming);
+  for (size_t p = l->threads; p > 0; p--) /* ends are the next beginnings */
+    incoming[p] = incoming[p - 1];
+  incoming[0] = 0;
+  return GSL_SUCCESS;
+}
+
+static int build(struct contact_list *l, const double *y) {
+  if (l->age != SIZE_MAX)
+    tune_skin(l);
+  l->age = SIZE_MAX; /* stays so if anything below fails */
+  int status = neighbors_find(&l->near, l->rows, y, l->stride, l->radius,
+                              l->law.lmax + l->skin);
+  if (status == GSL_SUCCESS) {
+    list_walls(l, y);
+    split_rows(l);
+    status = list_incoming(l);
+  }
+  if (status == GSL_SUCCESS)
+    status = reserve_sums(l);
+  if (status != GSL_SUCCESS)
+    return status == GSL_EINVAL ? GSL_EBADFUNC : status;
+  for (size_t i = 0; i < l->rows; i++)
+    memcpy(l->reference + 3 * i, y + i * l->stride, 3 * sizeof *y);
+  l->builds++;
+  l->age = 0;
+  return GSL_SUCCESS;
+}
+
+int contact_list_update(struct contact_list *l, const double y[]) {
+  if (l->age == SIZE_MAX)
+    return build(l, y);
+  const double most = 0.25 * l->skin * l->skin;
+  double furthest = 0;
+  bool sound = true; /* a maximum keeps a NaN out */
+#pragma omp parallel for num_threads((int)l->threads) schedule(static)         \
+    reduction(max : furthest) reduction(&& : sound)                            \
+    if (l->rows >= WORTH_SHARING)
+  for (size_t i = 0; i < l->rows; i++) {
+    const double *x = y + i * l->stride, *x0 = l->reference + 3 * i;
+    const double dx = x[0] - x0[0], dy = x[1] - x0[1], dz = x[2] - x0[2];
+    const double moved = dx * dx + dy * dy + dz * dz;
+    furthest = furthest > moved ? furthest : moved;
+    sound = sound && moved == moved;
+  }
+  if (!sound)
+    return GSL_EBADFUNC;
+  const bool too_wide = skin_overhead(l) * (double)l->age > 8 * build_cost &&
+                        l->skin > 0.03 * l->radius[0];
+  if (furthest > most || too_wide)
+    return build(l, y);
+  return GSL_SUCCESS;
+}

@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A bed as the evaluation of its forces needs it: rows in an order that is good
+   for memory, the pairs of rows and the walls near enough to matter, and which
+   thread computes what. The kernels, the Jacobian and the survey read it. Not
+   in the paper. One list per integration. Tested in
+   tests/test_dynamics.c. */
+#ifndef CONTACT_LIST_H
+#define CONTACT_LIST_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include "dynamics/row.h"
+#include "geometry/neighbors.h"
+#include "model/bed.h"
+#include "model/scene.h"
+
+/* What the contacts of a scene need. */
+struct contact_features {
+  bool friction, rotation;
+  bool elastic; /* e = 1: no rebound function */
+  bool uniform; /* equal radii */
+};
+
+/* Doubles in the sum of a row: force, 0, sum of n x friction, 0; and rows that
+   a part finishes at a time. */
+enum { CONTACT_SUM = 8, CONTACT_CHUNK = 64 };
+
+/* Rows [from, to) that one thread computes, and their sums, zero between
+   evaluations. Row i's sum is number i & mask: only the rows from the one being
+   finished to its furthest partner are in flight, and those stay in the
+   cache. */
+struct contact_part {
+  size_t from, to;
+  double *sums;
+  size_t mask; /* a power of two less one */
+};
+
+struct contact_list {
+  /* of the scene */
+  struct contact_law law;
+  struct contact_features has;
+  double gravity[3];
+  size_t walls_count;
+  struct wall *walls;
+
+  size_t rows, stride;   /* number of rows, doubles in each */
+  size_t *order;         /* sphere of the bed in each row */
+  double *radius, *mass; /* by row */
+
+  /* Contacts: pairs of rows i < j in near, then rows against walls. Row i's
+     begin at near.first[i] and wall_first[i], which have rows + 1 entries. */
+  struct neighbors near;
+  size_t wall_contacts, *wall_first;
+  uint32_t *wall_row, *wall_id; /* room for rows * walls_count */
+
+  /* One part per thread. A pair with its partners in two parts is computed in
+     both: those that come into part p from earlier ones are in_i[q], in_j[q],
+     incoming[p] <= q < incoming[p + 1], ascending. */
+  size_t threads;
+  struct contact_part *part;
+  double *sums; /* of all parts */
+  size_t sums_size;
+  size_t *incoming, incoming_size;
+  uint32_t *in_i, *in_j;
+
+  /* The list holds for states with all spheres within skin/2 of their
+     reference. */
+  double *reference; /* 3 rows */
+  double skin;       /* m */
+  size_t age; /* evaluations since it was built; SIZE_MAX: there is none */
+  size_t builds;
+};
+
+/* Prepares the list of a scene and its spheres; keeps no pointer to either.
+   GSL_EINVAL if there is no sphere, more than 2^32 - 2 of them, or a radius or
+   mass is not positive; GSL_ENOMEM. */
+int contact_list_alloc(struct contact_list **out, const struct scene *s,
+                       const struct bed *b, size_t threads);
+void contact_list_free(struct contact_list *l);
+
+/* Makes the list hold for the state y. GSL_SUCCESS, GSL_EBADFUNC for a position
+   that is not finite, GSL_ENOMEM. Sums do not depend on when the list was
+   built, since contacts beyond lmax add zero and their order is that of the
+   rows. */
+int contact_list_update(struct contact_list *l, const double y[]);
+
+#endif

@@ -1,0 +1,203 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Constructors when memory fails: every allocation in turn, GSL's too. Each
+   failure is GSL_ENOMEM and nothing else, the output stays as it was, and what
+   was allocated is freed, which the sanitizer sees. The linker puts the
+   functions below in the place of the allocators (Makefile). */
+#include <stdlib.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_odeiv2.h>
+#include "check.h"
+#include "dynamics/motion.h"
+
+/* --- allocators that fail --------------------------------------------------*/
+
+static size_t calls, failing; /* number of the call that fails; 0: none */
+
+static bool fails(void) {
+  return ++calls == failing;
+}
+
+#define WRAP(type, name, parameters, arguments)                                \
+  type __real_##name parameters;                                               \
+  type __wrap_##name parameters;                                               \
+  type __wrap_##name parameters {                                              \
+    return fails() ? NULL : __real_##name arguments;                           \
+  }
+
+WRAP(void *, malloc, (size_t size), (size))
+WRAP(void *, calloc, (size_t count, size_t size), (count, size))
+WRAP(void *, realloc, (void *p, size_t size), (p, size))
+WRAP(gsl_odeiv2_step *, gsl_odeiv2_step_alloc,
+     (const gsl_odeiv2_step_type *type, size_t dim), (type, dim))
+WRAP(gsl_odeiv2_evolve *, gsl_odeiv2_evolve_alloc, (size_t dim), (dim))
+WRAP(gsl_odeiv2_control *, gsl_odeiv2_control_scaled_new,
+     (double eps_abs, double eps_rel, double a_y, double a_dydt,
+      const double scale[], size_t dim),
+     (eps_abs, eps_rel, a_y, a_dydt, scale, dim))
+
+/* --- what is constructed ---------------------------------------------------*/
+
+/* Enough spheres for rows in the order of space. */
+enum { MANY = 1100 };
+
+struct sample {
+  struct scene scene;
+  struct bed bed;
+};
+
+static void sample_alloc(struct sample *s, size_t n) {
+  s->scene = scene_default();
+  if (scene_add_box(&s->scene, 1, 1) != GSL_SUCCESS ||
+      bed_alloc(&s->bed, n) != GSL_SUCCESS)
+    abort();
+  for (size_t i = 0; i < n; i++) {
+    s->bed.r[i] = 0.1;
+    s->bed.x[3 * i + 2] = 0.2 * (double)(i + 1);
+  }
+}
+
+static void sample_free(struct sample *s) {
+  bed_free(&s->bed);
+  scene_free(&s->scene);
+}
+
+static int make_scene(const struct sample *s) {
+  (void)s;
+  struct scene scene = scene_default();
+  const int status = scene_add_box(&scene, 1, 1);
+  scene_free(&scene);
+  return status;
+}
+
+static int make_bed(const struct sample *s) {
+  (void)s;
+  struct bed b;
+  const int status = bed_alloc(&b, 10);
+  bed_free(&b);
+  return status;
+}
+
+static int make_dynamics(const struct sample *s) {
+  struct dynamics *d = NULL;
+  const int status = dynamics_alloc(&d, &s->scene, &s->bed,
+                                    &(struct dynamics_options){.threads = 2});
+  CHECK((status == GSL_SUCCESS) == (d != NULL));
+  dynamics_free(d);
+  return status;
+}
+
+static const struct integrate_options *options(const char *method,
+                                               const char *control) {
+  static struct integrate_options o;
+  o = (struct integrate_options){.method = method,
+                                 .control = control,
+                                 .tol = 1e-3,
+                                 .hinit = 1e-4,
+                                 .step = control ? 0 : 1e-4};
+  return &o;
+}
+
+static int make_motion(const struct sample *s,
+                       const struct integrate_options *o) {
+  struct motion *m = NULL;
+  const int status = motion_alloc(&m, &s->scene, &s->bed, o,
+                                  &(struct dynamics_options){.threads = 1}, 0);
+  CHECK((status == GSL_SUCCESS) == (m != NULL));
+  motion_free(m);
+  return status;
+}
+
+static int make_rkc(const struct sample *s) {
+  return make_motion(s, options("rkc", "predictive"));
+}
+
+static int make_paper(const struct sample *s) {
+  return make_motion(s, options("merson", "paper"));
+}
+
+static int make_standard(const struct sample *s) {
+  return make_motion(s, options("dopri5", "standard"));
+}
+
+static int make_verlet(const struct sample *s) {
+  return make_motion(s, options("verlet", NULL));
+}
+
+static int make_over_floor(const struct sample *s) {
+  struct scene scene = scene_default();
+  struct motion *m = NULL;
+  (void)s;
+  const int status = motion_alloc_over_floor(
+      &m, &scene, 0.1, (double[]){0, 0, 1}, (double[]){0, 0, 0},
+      options("rkc", "predictive"), 0);
+  CHECK((status == GSL_SUCCESS) == (m != NULL));
+  motion_free(m);
+  return status;
+}
+
+/* The first evaluation makes the list. One failure in it is one too few for
+   the next to fail. */
+static int first_evaluation(const struct sample *s) {
+  struct dynamics *d = NULL;
+  const size_t stop = failing > calls ? failing : 0;
+  failing = 0;
+  if (dynamics_alloc(&d, &s->scene, &s->bed,
+                     &(struct dynamics_options){.threads = 2}) != GSL_SUCCESS)
+    abort();
+  const size_t dim = dynamics_dimension(d);
+  double *y = calloc(2 * dim, sizeof *y);
+  if (!y)
+    abort();
+  dynamics_pack(d, &s->bed, y);
+  calls = 0;
+  failing = stop;
+  const int status = dynamics_rhs(0, y, y + dim, d);
+  failing = 0;
+  if (status != GSL_SUCCESS) /* memory is back */
+    CHECK(dynamics_rhs(0, y, y + dim, d) == GSL_SUCCESS);
+  free(y);
+  dynamics_free(d);
+  return status;
+}
+
+/* Fails the first, second, ... allocation until there are no more. */
+static void check_each(const char *what, int (*make)(const struct sample *),
+                       const struct sample *s, size_t least) {
+  size_t k = 1;
+  for (;; k++) {
+    calls = 0;
+    failing = k;
+    const int status = make(s);
+    failing = 0;
+    if (status == GSL_SUCCESS)
+      break;
+    if (!CHECK(status == GSL_ENOMEM)) {
+      fprintf(stderr, "  %s, allocation %zu: %s\n", what, k,
+              gsl_strerror(status));
+      break;
+    }
+  }
+  if (!CHECK(k > least)) /* else the allocators were not replaced */
+    fprintf(stderr, "  %s: %zu allocations\n", what, k - 1);
+}
+
+int main(void) {
+  struct sample few, many;
+  gsl_set_error_handler_off();
+  sample_alloc(&few, 3);
+  sample_alloc(&many, MANY);
+  check_each("scene", make_scene, &few, 4);
+  check_each("bed", make_bed, &few, 5);
+  check_each("dynamics", make_dynamics, &few, 11);
+  check_each("dynamics in order", make_dynamics, &many, 12);
+  check_each("rkc", make_rkc, &few, 16);
+  check_each("paper", make_paper, &few, 16);
+  check_each("standard", make_standard, &few, 16);
+  check_each("verlet", make_verlet, &few, 15);
+  check_each("over the floor", make_over_floor, &few, 22);
+  check_each("first evaluation", first_evaluation, &few, 4);
+  check_each("first evaluation in order", first_evaluation, &many, 6);
+  sample_free(&few);
+  sample_free(&many);
+  return check_done();
+}
