@@ -15,11 +15,9 @@ TRAJECTORIES := trajectory-8 trajectory-8-basic \
 YLABEL_position := error of position (diameters)
 $(foreach s,$(TRAJECTORIES),$(eval STEP_$(s) := 4e-4)\
   $(eval ERRORS_$(s) := position)$(eval ORDERS_$(s) := 1 2 4))
-$(foreach m,$(EMBEDDED) rkc msbdf,\
-  $(foreach s,trajectory-8 trajectory-8-basic,$(eval RUNGS_$(s)-$(m) := \
-    1e-1 1e-2 1e-3 1e-4 1e-5 1e-6 1e-7 1e-8))\
-  $(foreach s,trajectory-200 trajectory-200-basic,$(eval RUNGS_$(s)-$(m) := \
-    1e-1 1e-2 1e-3 1e-4 1e-5 1e-6)))
+$(foreach m,$(EMBEDDED) rkc msbdf,$(foreach s,$(TRAJECTORIES),\
+  $(eval RUNGS_$(s)-$(m) := 1e-1 1e-2 1e-3 1e-4 1e-5 1e-6 \
+    $(if $(filter trajectory-8%,$(s)),1e-7 1e-8))))
 # msbdf has dense matrices of 1800 unknowns
 TRAJECTORY_METHODS := $(EMBEDDED) rkc verlet
 METHODS_trajectory-8 := $(if $(QUICK),merson rk8pd rkc verlet)
