@@ -316,8 +316,7 @@ static void test_slices(void) {
   }
 }
 
-/* --- shells
- * -----------------------------------------------------------------*/
+/* --- shells ----------------------------------------------------------------*/
 
 /* The oracle turns the order of integration: at each azimuth the union of
    segments along the axis, over all azimuths. */
@@ -470,6 +469,146 @@ static void test_shell_identities(void) {
   }
 }
 
+/* Spheres of any size beside the shell's keep their digits. A sphere whose
+   centre is on the shell: with sin(t/2) = k sin(phi), k = r/2R, its area is
+   4 R r k int cos^2 phi / sqrt(1 - k^2 sin^2 phi) dphi over half a turn, and
+   the series in k ends soon. */
+static double on_shell(double r, double shell) {
+  const double k2 = gsl_pow_2(r / (2 * shell));
+  double term = M_PI_2, sum = 0; /* of int cos^2 sin^2n */
+  for (int n = 0; n < 12; n++) {
+    sum += term;
+    const double power = (2 * n + 1.0) / (2 * n + 2);
+    term *= power * k2 * (2 * n + 1) / (2 * n + 4);
+  }
+  return 4 * shell * r * r / (2 * shell) * sum;
+}
+
+static void test_shell_small(void) {
+  for (int ten = 1; ten <= 12; ten++) {
+    const double r = pow(10, -ten);
+    const struct area_shell shell = {{0, 0}, 1, {-3, 3}};
+    /* alone, and two that overlap, one over the other and side by side */
+    const double half = r / 2, turn = asin(half); /* centres r apart */
+    const double x[3] = {0, 1, 0}, over[6] = {1, 0, -half, 1, 0, half};
+    const double beside[6] = {cos(turn), half, 0, cos(turn), -half, 0};
+    const double radii[2] = {r, r}, lens = 2 * segment(r, half);
+    double sum = GSL_NAN, both = GSL_NAN;
+    CHECK(area_shell_covered(1, x, &r, &shell, &sum, &both) == GSL_SUCCESS);
+    bool ok = CHECK_REL(sum, on_shell(r, 1), ULPS(16)) & CHECK(both == sum);
+    /* flat, to the square of how far the shell bends away */
+    CHECK(area_shell_covered(2, over, radii, &shell, &sum, &both) ==
+          GSL_SUCCESS);
+    ok &= CHECK_REL(sum, 2 * on_shell(r, 1), ULPS(16));
+    ok &= CHECK_REL(both, 2 * M_PI * r * r - lens, r * r + ULPS(64));
+    CHECK(area_shell_covered(2, beside, radii, &shell, &sum, &both) ==
+          GSL_SUCCESS);
+    ok &= CHECK_REL(sum, 2 * on_shell(r, 1), ULPS(16));
+    ok &= CHECK_REL(both, 2 * M_PI * r * r - lens, r * r + ULPS(64));
+    if (!ok)
+      fprintf(stderr, "  r=%g\n", r);
+  }
+  /* off the shell, where a - R must keep what hypot rounds away */
+  for (int ten = 1; ten <= 9; ten++) {
+    const double r = pow(10, -ten);
+    const struct area_shell shell = {{0.1, 0.3}, 1, {-3, 3}};
+    const double x[3] = {0.1 + 0.6 + 0.2 * r, 0.3 + 0.8 - 0.1 * r, 0};
+    double sum = GSL_NAN, both = GSL_NAN;
+    CHECK(area_shell_covered(1, x, &r, &shell, &sum, &both) == GSL_SUCCESS);
+    const long double dx = (long double)x[0] - shell.axis[0];
+    const long double dy = (long double)x[1] - shell.axis[1];
+    const long double d = sqrtl(dx * dx + dy * dy) - 1;
+    const double height2 = (double)((r - d) * (r + d));
+    /* pi H^2 / sqrt(a) and a relative k^2/8 */
+    const double want = M_PI * height2 / sqrt((double)(1 + d)) *
+                        (1 + height2 / (double)(1 + d) / 32);
+    if (!CHECK_REL(sum, want,
+                   gsl_pow_4(r) + ULPS(32) + 64 * (double)LDBL_EPSILON / r))
+      fprintf(stderr, "  r=%g\n", r);
+  }
+}
+
+/* Sets whose numbers are multiples of 1/4: spheres that touch each other, the
+   shell and its ends, or are one, planes that touch the shell or hold its axis.
+   Against the plainest oracle, which errs by no more than a few of its steps
+   where segments end: with N azimuths by some (1/N)^(3/2) of the mantle, and
+   more of them are taken where they do not agree. */
+static void sampled_shell(size_t n, const double *x, const double *r,
+                          const struct area_shell *s, size_t azimuths,
+                          double *sum, double *both) {
+  *sum = *both = 0;
+  for (size_t q = 0; q < azimuths; q++) {
+    const double t = 2 * M_PI * ((double)q + 0.5) / (double)azimuths;
+    const double at[2] = {s->axis[0] + s->radius * cos(t),
+                          s->axis[1] + s->radius * sin(t)};
+    struct interval v[MOST];
+    size_t count = 0;
+    for (size_t i = 0; i < n; i++) {
+      const double dx = at[0] - x[3 * i], dy = at[1] - x[3 * i + 1];
+      const double h2 = r[i] * r[i] - dx * dx - dy * dy;
+      if (h2 <= 0)
+        continue;
+      v[count].from = fmax(s->z[0], x[3 * i + 2] - sqrt(h2));
+      v[count].to = fmin(s->z[1], x[3 * i + 2] + sqrt(h2));
+      if (v[count].from < v[count].to) {
+        *sum += v[count].to - v[count].from;
+        count++;
+      }
+    }
+    *both += covered(count, v);
+  }
+  *sum *= 2 * M_PI * s->radius / (double)azimuths;
+  *both *= 2 * M_PI * s->radius / (double)azimuths;
+}
+
+static double quarters(gsl_rng *rng, int from, int to) {
+  return 0.25 * (from + (int)gsl_rng_uniform_int(rng, to - from + 1));
+}
+
+static void test_shell_degenerate(void) {
+  static const struct {
+    size_t azimuths;
+    double tol; /* of the mantle */
+  } tries[] = {{400, 1e-4}, {20000, 1e-6}, {4000000, 2e-8}};
+  gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+  gsl_rng_set(rng, 1);
+  for (size_t set = 0; set < 6000; set++) {
+    const size_t n = 1 + gsl_rng_uniform_int(rng, 5);
+    struct area_shell s = {{quarters(rng, -2, 2), quarters(rng, -2, 2)},
+                           quarters(rng, 1, 8),
+                           {quarters(rng, -8, 0)}};
+    s.z[1] = s.z[0] + quarters(rng, 1, 8);
+    double x[3 * MOST], r[MOST], sum = GSL_NAN, both = GSL_NAN;
+    for (size_t i = 0; i < n; i++) {
+      for (size_t k = 0; k < 3; k++)
+        x[3 * i + k] = quarters(rng, -8, 8);
+      r[i] = quarters(rng, 1, 12) / 2;
+    }
+    if (set % 4 == 0) { /* the same with roundings */
+      const double turn = uniform(rng, 0, 7), c = cos(turn), q = sin(turn);
+      for (size_t i = 0; i <= n; i++) {
+        double *p = i < n ? x + 3 * i : s.axis;
+        const double was[2] = {p[0], p[1]};
+        p[0] = c * was[0] - q * was[1];
+        p[1] = q * was[0] + c * was[1];
+      }
+    }
+    const double mantle = 2 * M_PI * s.radius * (s.z[1] - s.z[0]);
+    bool ok = area_shell_covered(n, x, r, &s, &sum, &both) == GSL_SUCCESS;
+    ok = ok && both <= sum && both <= mantle && both >= 0;
+    bool agree = false;
+    for (size_t k = 0; k < 3 && ok && !agree; k++) {
+      double plain_sum, plain;
+      sampled_shell(n, x, r, &s, tries[k].azimuths, &plain_sum, &plain);
+      agree = fabs(plain - both) <= tries[k].tol * mantle &&
+              fabs(plain_sum - sum) <= tries[k].tol * mantle * (double)n;
+    }
+    if (!CHECK(ok && agree))
+      fprintf(stderr, "  set %zu: sum %.17g, union %.17g\n", set, sum, both);
+  }
+  gsl_rng_free(rng);
+}
+
 /* Shells integrate to the volume. */
 static double shell_of(double radius, void *params) {
   const struct spheres *p = params;
@@ -515,6 +654,8 @@ int main(void) {
   test_shell_one();
   test_shell_random();
   test_shell_identities();
+  test_shell_small();
+  test_shell_degenerate();
   test_shell_volume();
   return check_done();
 }

@@ -34,18 +34,17 @@
    such an azimuth enters squared, and one too many costs time only. */
 #include "geometry/area.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
-#include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_poly.h>
 #include <gsl/gsl_sf_ellint.h>
 #include "geometry/halfspace.h"
-#include "geometry/neighbors.h"
-#include "geometry/vec3.h"
+#include "geometry/power.h"
 
 /* W of the above; h > 0, s of either sign. */
 static double beyond(double r, double h, double s) {
@@ -140,67 +139,31 @@ double area_sum(size_t n, const double *c, const double *r,
   return sum;
 }
 
-/* Room for n discs or spheres, their pairs and what one of them has to do with
-   its partners. */
-struct work {
-  size_t n;
-  double *x, *r; /* rows of three */
-  struct neighbors nb;
-  size_t *start;
-  uint32_t *partner;
-  size_t most; /* partners */
-};
-
-static void work_free(struct work *w) {
-  neighbors_free(&w->nb);
-  free(w->x);
-  free(w->r);
-  free(w->start);
-  free(w->partner);
-}
-
-static int work_alloc(struct work *w, size_t room) {
-  *w = (struct work){.x = calloc(room + 1, 3 * sizeof *w->x),
-                     .r = calloc(room + 1, sizeof *w->r)};
-  return w->x && w->r ? GSL_SUCCESS : GSL_ENOMEM;
-}
-
-static int work_pairs(struct work *w) {
-  const int status = neighbors_find(&w->nb, w->n, w->x, 3, w->r, 0);
-  if (status != GSL_SUCCESS)
-    return status;
-  w->start = calloc(w->n + 2, sizeof *w->start);
-  w->partner = calloc(w->nb.count + 1, 2 * sizeof *w->partner);
-  if (!w->start || !w->partner)
-    return GSL_ENOMEM;
-  w->most = neighbors_partners(&w->nb, w->n, w->start, w->partner);
-  return GSL_SUCCESS;
-}
-
-/* Does j hide concentric i? Of equals the first stays. */
-static bool within(const struct work *w, size_t i, size_t j) {
-  return w->r[j] > w->r[i] || (w->r[j] == w->r[i] && j < i);
-}
-
 /* What disc i has of its power cell and the rectangle. lines: room for 4 more
    than the most partners. */
-static double disc_cell(const struct work *w, size_t i,
+static double disc_cell(const struct power *p, size_t i,
                         const double rectangle[4], double (*lines)[3]) {
-  const double *c = w->x + 3 * i;
-  size_t count = sides(c, w->r[i], rectangle, lines);
-  for (size_t p = w->start[i]; p < w->start[i + 1]; p++) {
-    const size_t j = w->partner[p];
-    const double dx = w->x[3 * j] - c[0], dy = w->x[3 * j + 1] - c[1];
-    const double distance = hypot(dx, dy), ri = w->r[i], rj = w->r[j];
-    if (distance > 1e-20 * (ri + rj)) {
-      double *line = lines[count++];
-      line[0] = dx / distance;
-      line[1] = dy / distance;
-      line[2] = (distance + (ri - rj) * (ri + rj) / distance) / 2;
-    } else if (within(w, i, j))
+  size_t count = sides(p->x + 3 * i, p->r[i], rectangle, lines);
+  for (size_t q = p->start[i]; q < p->start[i + 1]; q++) {
+    double plane[4];
+    const enum power_leaves leaves = power_plane(p, i, p->partner[q], plane);
+    if (leaves == POWER_NONE)
       return 0;
+    if (leaves == POWER_ALL)
+      continue;
+    double *line = lines[count++];
+    line[0] = plane[0];
+    line[1] = plane[1];
+    line[2] = plane[3];
   }
-  return area_disc_lines(w->r[i], count, (const double(*)[3])lines);
+  const double area =
+      area_disc_lines(p->r[i], count, (const double(*)[3])lines);
+  assert(!(area > M_PI * p->r[i] * p->r[i] * (1 + 1e-9)));
+  return area;
+}
+
+static bool disc_reaches(const double *c, double r, const void *rectangle) {
+  return !empty(rectangle) && !misses(c, r, rectangle);
 }
 
 int area_union(size_t n, const double *c, const double *r,
@@ -208,90 +171,106 @@ int area_union(size_t n, const double *c, const double *r,
   for (int k = 0; k < 4; k++)
     if (isnan(rectangle[k]))
       return GSL_EINVAL;
-  size_t near = 0;
-  for (size_t i = 0; i < n; i++) {
-    if (!isfinite(c[2 * i]) || !isfinite(c[2 * i + 1]) || !isfinite(r[i]))
-      return GSL_EINVAL;
-    near += !misses(c + 2 * i, r[i], rectangle);
-  }
-  if (near == 0 || empty(rectangle)) {
-    *area = 0;
-    return GSL_SUCCESS;
-  }
-  struct work w;
-  double(*lines)[3] = NULL;
-  int status = work_alloc(&w, near);
+  struct power *p;
+  const int status = power_alloc(&p, 2, n, c, r, disc_reaches, rectangle);
   if (status != GSL_SUCCESS)
-    goto done;
-  for (size_t i = 0; i < n; i++)
-    if (!misses(c + 2 * i, r[i], rectangle)) {
-      w.x[3 * w.n] = c[2 * i];
-      w.x[3 * w.n + 1] = c[2 * i + 1];
-      w.r[w.n++] = r[i];
-    }
-  status = work_pairs(&w);
-  if (status != GSL_SUCCESS)
-    goto done;
-  lines = calloc(w.most + 4, sizeof *lines);
-  if (!lines) {
-    status = GSL_ENOMEM;
-    goto done;
-  }
-  *area = 0;
-  for (size_t i = 0; i < w.n; i++)
-    *area += disc_cell(&w, i, rectangle, lines);
-done:
+    return status;
+  double(*lines)[3] = calloc(p->most + 4, sizeof *lines);
+  double sum = 0;
+  for (size_t i = 0; i < p->n && lines; i++)
+    sum += disc_cell(p, i, rectangle, lines);
+  if (lines)
+    *area = sum;
+  power_free(p);
   free(lines);
-  work_free(&w);
-  return status;
+  return lines ? GSL_SUCCESS : GSL_ENOMEM;
 }
 
 /* Shells */
 
-/* Of a line at the azimuth t: nz zeta <= a + c cos t + s sin t. */
+/* Of a line at the azimuth t: nz zeta <= near + c (cos t - 1) + s sin t. */
 struct bound {
-  double nz, a, c, s;
+  double nz, near, c, s;
 };
 
-/* A sphere as the shell has it: a, R, H and k of the above, and the azimuth
-   where it ends, pi if nowhere. */
+/* A sphere as the shell has it: a, R, a - R, H and k of the above, and the
+   azimuth where it ends, pi if nowhere. ux, uy: the way to it from the axis. */
 struct patch {
-  double a, shell, height, k, end;
+  double a, shell, beyond, height, k, end, ux, uy;
 };
 
-/* False if the sphere leaves nothing on the shell. */
+/* The rounding error of x - y. */
+static double lost(double x, double y) {
+  const double d = x - y, part = x - d;
+  return (x - (d + part)) + (part - y);
+}
+
+/* How much sqrt(x^2 + y^2) is more than a, which is its rounded value; lost_x
+   and lost_y belong to x and y. */
+static double hypot_rest(double x, double y, double lost_x, double lost_y,
+                         double a) {
+  const double most = fmax(fabs(x), fabs(y)), least = fmin(fabs(x), fabs(y));
+  const double most2 = most * most, least2 = least * least, a2 = a * a;
+  const double rest = ((most2 - a2) + least2) + fma(most, most, -most2) +
+                      fma(least, least, -least2) - fma(a, a, -a2);
+  return a > 0 ? (rest / 2 + x * lost_x + y * lost_y) / a : 0;
+}
+
+/* False if the sphere leaves nothing on the shell. A sphere much smaller than
+   the shell has all its digits in a - R, which must not come from a rounded. */
 static bool patch_of(struct patch *p, const double *x, double r,
                      const struct area_shell *s) {
-  p->a = hypot(x[0] - s->axis[0], x[1] - s->axis[1]);
+  const double dx = x[0] - s->axis[0], dy = x[1] - s->axis[1];
+  p->a = hypot(dx, dy);
   p->shell = s->radius;
-  const double d = p->a - s->radius;
-  if (!(r > fabs(d)))
+  p->beyond = (p->a - s->radius) + hypot_rest(dx, dy, lost(x[0], s->axis[0]),
+                                              lost(x[1], s->axis[1]), p->a);
+  if (!(r > fabs(p->beyond)))
     return false;
-  p->height = sqrt((r - d) * (r + d));
+  p->ux = p->a > 0 ? dx / p->a : 1;
+  p->uy = p->a > 0 ? dy / p->a : 0;
+  p->height = sqrt((r - p->beyond) * (r + p->beyond));
   /* finite even on the axis */
   p->k = fmin(1e100, p->height / (2 * sqrt(p->a * s->radius)));
   p->end = p->k >= 1 ? M_PI : 2 * asin(p->k);
-  return x[2] + p->height > s->z[0] && x[2] - p->height < s->z[1];
+  return x[2] + p->height > s->z[0] && x[2] - p->height < s->z[1] && p->end > 0;
 }
 
-/* sqrt(q) of the above. */
-static double patch_height(const struct patch *p, double t) {
-  const double s = sin(t / 2) / p->k;
+static bool patch_reaches(const double *x, double r, const void *shell) {
+  struct patch p;
+  return patch_of(&p, x, r, shell);
+}
+
+/* sqrt(q) of the above; half: sin(t/2). */
+static double patch_height(const struct patch *p, double half) {
+  const double s = half / p->k;
   return p->height * sqrt(fmax(0, (1 - s) * (1 + s)));
 }
 
 /* Its integral from 0. */
 static double patch_integral(const struct patch *p, double t) {
-  const double k = p->k, s = sin(t / 2);
-  if (k == 1) /* GSL has no modulus of 1 */
-    return 2 * p->height * s;
+  const double k = p->k, half = sin(t / 2);
+  if (k == 1) /* F and D have no end */
+    return 2 * p->height * half;
   if (k > 1)
     return 2 * p->height * gsl_sf_ellint_E(t / 2, 1 / k, GSL_PREC_DOUBLE);
-  const double x = asin(fmax(-1, fmin(1, s / k)));
-  return 2 * p->height *
-         (gsl_sf_ellint_E(x, k, GSL_PREC_DOUBLE) -
-          (1 - k) * (1 + k) * gsl_sf_ellint_F(x, k, GSL_PREC_DOUBLE)) /
-         k;
+  const double s = fmax(-1, fmin(1, half / k)), c2 = (1 - s) * (1 + s);
+  const double d2 = (1 - half) * (1 + half);
+  return 2 * p->height * k * s *
+         (gsl_sf_ellint_RF(c2, d2, 1, GSL_PREC_DOUBLE) -
+          s * s / 3 * gsl_sf_ellint_RD(c2, d2, 1, GSL_PREC_DOUBLE));
+}
+
+/* sin x - x, to its own digits. */
+static double sine_less(double x) {
+  if (fabs(x) > 1)
+    return sin(x) - x;
+  double term = x, sum = 0;
+  for (int k = 2; k < 20; k += 2) {
+    term *= -x * x / (k * (k + 1));
+    sum += term;
+  }
+  return sum;
 }
 
 /* Integral over [from, to] of the bound in force; NULL: of sqrt(q), of the
@@ -300,60 +279,153 @@ static double bound_integral(const struct patch *p, const struct bound *b,
                              double sign, double from, double to) {
   if (!b)
     return sign * (patch_integral(p, to) - patch_integral(p, from));
-  const double middle = (from + to) / 2, chord = 2 * sin((to - from) / 2);
-  return (b->a * (to - from) +
-          chord * (b->c * cos(middle) + b->s * sin(middle))) /
+  const double middle = (from + to) / 2, half = (to - from) / 2;
+  const double chord = 2 * sin(half), sine = sin(middle / 2);
+  return (b->near * 2 * half +
+          b->c * (2 * sine_less(half) - 2 * chord * sine * sine) +
+          b->s * chord * sin(middle)) /
          b->nz;
 }
 
-/* Room for what one sphere needs: bounds, and azimuths where they meet. */
+/* Room for what one sphere needs: bounds, and azimuths where they may meet. */
 struct shell_work {
-  struct bound *bounds;
+  size_t bounds;
+  struct bound *bound;
+  size_t meets, room;
   double *meet;
-  gsl_poly_complex_workspace *quartic;
+  gsl_poly_complex_workspace *solver[5]; /* by degree, 2 to 4 */
 };
 
 /* Keeps an azimuth if it is on the sphere. */
-static size_t meet_add(const struct patch *p, double *meet, size_t count,
-                       double t) {
+static void meet_add(const struct patch *p, struct shell_work *w, double t) {
   t = remainder(t, 2 * M_PI);
+  assert(w->meets < w->room);
   if (fabs(t) < p->end)
-    meet[count++] = t;
-  return count;
+    w->meet[w->meets++] = t;
 }
 
-/* Where a + c cos t + s sin t = 0. */
-static size_t meet_wave(const struct patch *p, double *meet, size_t count,
-                        double a, double c, double s) {
-  const double size = hypot(c, s);
-  if (!(fabs(a) <= size) || size == 0)
-    return count;
-  const double top = atan2(s, c), half = acos(-a / size);
-  count = meet_add(p, meet, count, top - half);
-  return meet_add(p, meet, count, top + half);
+/* Where near + c (cos t - 1) + s sin t = 0; with w = tan(t/2) that is
+   near + 2 s w + (near - 2 c) w^2 = 0. */
+static void meet_wave(const struct patch *p, struct shell_work *w, double near,
+                      double c, double s) {
+  const double far = near - 2 * c, square = s * s - near * far;
+  if (!(square >= 0))
+    return;
+  const double q = -(s + copysign(sqrt(square), s));
+  meet_add(p, w, 2 * atan2(q, far));
+  meet_add(p, w, 2 * atan2(near, q));
 }
 
-/* Where a bound meets the sphere: nz^2 q = (a + c cos t + s sin t)^2. */
-static size_t meet_sphere(const struct patch *p, const struct shell_work *w,
-                          size_t count, const struct bound *b) {
-  const double near = b->a + b->c, far = b->a - b->c; /* at t = 0 and pi */
-  const double n2 = b->nz * b->nz, q = p->height * p->height;
-  const double q_far = q - 4 * p->a * p->shell;
-  double f[5] = {n2 * q - near * near, -4 * b->s * near,
-                 n2 * (q + q_far) - 2 * near * far - 4 * b->s * b->s,
-                 -4 * b->s * far, n2 * q_far - far * far};
-  double z[8], size = 0;
+/* Where a bound may meet the sphere: nz^2 q = (...)^2, a quartic in tan(t/2),
+   in units of the sphere's own end. A leading coefficient that is no more than
+   rounding would spoil all roots, and its own is far beyond the end or at pi,
+   which is an end. Steep bounds come and go about their zeros and extremes. */
+static int meet_sphere(const struct patch *p, struct shell_work *w,
+                       const struct bound *b) {
+  static const double noise = 1e-14;
+  const double unit = p->end < M_PI_2 ? tan(p->end / 2) : 1;
+  const double n2 = b->nz * b->nz, u2 = unit * unit;
+  const double q0 = p->height * p->height;
+  const double q2 = (q0 - 4 * p->a * p->shell) * u2;
+  const double b0 = b->near, b1 = 2 * b->s * unit;
+  const double b2 = (b->near - 2 * b->c) * u2;
+  const double f[5] = {n2 * q0 - b0 * b0, -2 * b0 * b1,
+                       n2 * (q0 * u2 + q2) - b1 * b1 - 2 * b0 * b2,
+                       -2 * b1 * b2, n2 * q2 * u2 - b2 * b2};
+  double size = 0, z[8];
+  meet_wave(p, w, b->near, b->c, b->s);
+  meet_add(p, w, atan2(b->s, b->c));
+  meet_add(p, w, atan2(-b->s, -b->c));
   if (b->nz == 0)
-    return meet_wave(p, w->meet, count, b->a, b->c, b->s);
+    return GSL_SUCCESS;
   for (int k = 0; k < 5; k++)
     size += fabs(f[k]);
-  if (f[4] == 0) /* a root at pi; the solver wants four finite ones */
-    f[4] = 1e-30 * size;
-  if (gsl_poly_complex_solve(f, 5, w->quartic, z) != GSL_SUCCESS)
-    return count;
-  for (int k = 0; k < 4; k++)
-    count = meet_add(p, w->meet, count, 2 * atan(z[2 * k]));
-  return count;
+  size_t degree = 4;
+  while (degree > 0 && !(fabs(f[degree]) > noise * size))
+    degree--;
+  if (degree == 1)
+    meet_add(p, w, 2 * atan(-f[0] / f[1] * unit));
+  if (degree < 2)
+    return GSL_SUCCESS;
+  if (gsl_poly_complex_solve(f, degree + 1, w->solver[degree], z) !=
+      GSL_SUCCESS)
+    return GSL_EFAILED;
+  for (size_t k = 0; k < degree; k++)
+    meet_add(p, w, 2 * atan(z[2 * k] * unit));
+  return GSL_SUCCESS;
+}
+
+/* The bounds that a line of the sphere ends at, NULL for the sphere itself. */
+struct force {
+  bool nothing; /* is left of the line */
+  const struct bound *above, *below;
+};
+
+static bool same(const struct force *f, const struct force *g) {
+  return f->nothing == g->nothing && f->above == g->above &&
+         f->below == g->below;
+}
+
+static struct force in_force(const struct patch *p, const struct shell_work *w,
+                             double t) {
+  static const struct force nothing = {.nothing = true};
+  const double half = sin(t / 2), sine = sin(t);
+  double high = patch_height(p, half), low = -high;
+  struct force f = {0};
+  for (size_t i = 0; i < w->bounds; i++) {
+    const struct bound *b = &w->bound[i];
+    const double most = b->near - 2 * b->c * half * half + b->s * sine;
+    if (b->nz > 0 && most < high * b->nz) {
+      high = most / b->nz;
+      f.above = b;
+    } else if (b->nz < 0 && most < low * b->nz) {
+      low = most / b->nz;
+      f.below = b;
+    } else if (b->nz == 0 && most < 0)
+      return nothing;
+    if (!(low < high))
+      return nothing;
+  }
+  return low < high ? f : nothing;
+}
+
+/* A way over the sphere's azimuths: since `from` the same bounds are in force.
+   What lies between is added up when others come. */
+struct sweep {
+  const struct patch *p;
+  const struct shell_work *w;
+  double from, area;
+  struct force force;
+};
+
+static void turn_to(struct sweep *s, double t, const struct force *force) {
+  const struct force *f = &s->force;
+  const double width = t - s->from;
+  if (!f->nothing && width > 0) {
+    const double part = bound_integral(s->p, f->above, 1, s->from, t) -
+                        bound_integral(s->p, f->below, -1, s->from, t);
+    /* a steep bound that is in force at less than a rounding error's width
+       may come out as anything */
+    s->area += fmax(0, fmin(part, 2 * s->p->height * width));
+  }
+  s->from = t;
+  s->force = *force;
+}
+
+/* Goes on from a to b, at which `at_a` and `at_b` are in force, and halves the
+   way until every change in between is found. */
+static void sweep_on(struct sweep *s, double a, const struct force *at_a,
+                     double b, const struct force *at_b) {
+  if (same(at_a, at_b))
+    return;
+  const double middle = a + (b - a) / 2;
+  if (b - a < GSL_DBL_EPSILON / 4 * s->p->end || middle <= a || middle >= b) {
+    turn_to(s, middle, at_b);
+    return;
+  }
+  const struct force at_middle = in_force(s->p, s->w, middle);
+  sweep_on(s, a, at_a, middle, &at_middle);
+  sweep_on(s, middle, &at_middle, b, at_b);
 }
 
 static int compare_doubles(const void *a, const void *b) {
@@ -361,84 +433,141 @@ static int compare_doubles(const void *a, const void *b) {
   return (x > y) - (x < y);
 }
 
+/* Room for the meetings of the bounds: with the sphere 8 each, among
+   themselves, and the ends. */
+static int reserve_meets(struct shell_work *w) {
+  const size_t want = w->bounds * (w->bounds + 7) + 2;
+  w->meets = 0;
+  if (want <= w->room)
+    return GSL_SUCCESS;
+  double *meet =
+      w->bounds > UINT32_MAX ? NULL : realloc(w->meet, want * sizeof *w->meet);
+  if (!meet)
+    return GSL_ENOMEM;
+  w->meet = meet;
+  w->room = want;
+  return GSL_SUCCESS;
+}
+
 /* Area of the sphere's patch inside all bounds. */
-static double patch_area(const struct patch *p, const struct shell_work *w,
-                         size_t bounds) {
-  const struct bound *b = w->bounds;
-  size_t count = 0;
-  w->meet[count++] = -p->end;
-  w->meet[count++] = p->end;
-  for (size_t i = 0; i < bounds; i++) {
-    count = meet_sphere(p, w, count, &b[i]);
-    for (size_t j = 0; j < i; j++)
-      count = meet_wave(p, w->meet, count, b[i].a * b[j].nz - b[j].a * b[i].nz,
-                        b[i].c * b[j].nz - b[j].c * b[i].nz,
-                        b[i].s * b[j].nz - b[j].s * b[i].nz);
+static int patch_area(const struct patch *p, struct shell_work *w,
+                      double *area) {
+  int status = reserve_meets(w);
+  for (size_t i = 0; i < w->bounds && status == GSL_SUCCESS; i++) {
+    const struct bound *b = &w->bound[i];
+    status = meet_sphere(p, w, b);
+    for (const struct bound *o = w->bound; o < b; o++)
+      meet_wave(p, w, b->near * o->nz - o->near * b->nz,
+                b->c * o->nz - o->c * b->nz, b->s * o->nz - o->s * b->nz);
   }
-  qsort(w->meet, count, sizeof *w->meet, compare_doubles);
-  double area = 0;
-  for (size_t m = 1; m < count; m++) {
-    const double from = w->meet[m - 1], to = w->meet[m], t = (from + to) / 2;
-    const double cosine = cos(t), sine = sin(t);
-    double high = patch_height(p, t), low = -high;
-    const struct bound *above = NULL, *below = NULL;
-    for (size_t i = 0; i < bounds; i++) {
-      const double most = b[i].a + b[i].c * cosine + b[i].s * sine;
-      if (b[i].nz > 0 && most / b[i].nz < high) {
-        high = most / b[i].nz;
-        above = &b[i];
-      } else if (b[i].nz < 0 && most / b[i].nz > low) {
-        low = most / b[i].nz;
-        below = &b[i];
-      } else if (b[i].nz == 0 && most < 0)
-        low = high;
-    }
-    if (low < high && from < to)
-      area += bound_integral(p, above, 1, from, to) -
-              bound_integral(p, below, -1, from, to);
+  if (status != GSL_SUCCESS)
+    return status;
+  qsort(w->meet, w->meets, sizeof *w->meet, compare_doubles);
+  /* looked at: where bounds may meet, and half-way between */
+  struct sweep s = {.p = p, .w = w, .from = -p->end};
+  double at = -p->end;
+  struct force force = {0};
+  for (size_t m = 0; m <= w->meets; m++) {
+    const double next = m < w->meets ? w->meet[m] : p->end;
+    const double middle = at + (next - at) / 2;
+    const struct force at_middle = in_force(p, w, middle);
+    if (m == 0)
+      s.force = at_middle;
+    else
+      sweep_on(&s, at, &force, middle, &at_middle);
+    if (m == w->meets)
+      break;
+    force = in_force(p, w, next);
+    sweep_on(&s, middle, &at_middle, next, &force);
+    at = next;
   }
-  return area > 0 ? area * p->shell : 0;
+  turn_to(&s, p->end, &s.force);
+  *area = s.area * p->shell;
+  return GSL_SUCCESS;
+}
+
+/* The ends of the shell that cut the patch, seen from its centre. */
+static void bound_ends(struct shell_work *w, const struct patch *p, double z,
+                       const struct area_shell *shell) {
+  const double up = shell->z[1] - z, down = z - shell->z[0];
+  w->bounds = 0;
+  if (up < p->height)
+    w->bound[w->bounds++] = (struct bound){.nz = 1, .near = up};
+  if (down < p->height)
+    w->bound[w->bounds++] = (struct bound){.nz = -1, .near = down};
+}
+
+/* The planes between sphere i and its partners that cut it. False if nothing
+   of it is left. */
+static bool bound_partners(struct shell_work *w, const struct patch *p,
+                           const struct power *cells, size_t i) {
+  for (size_t q = cells->start[i]; q < cells->start[i + 1]; q++) {
+    double n[4];
+    const enum power_leaves leaves =
+        power_plane(cells, i, cells->partner[q], n);
+    if (leaves == POWER_NONE || (leaves == POWER_HALF && n[3] <= -cells->r[i]))
+      return false;
+    if (leaves == POWER_ALL || n[3] >= cells->r[i])
+      continue;
+    const double n1 = n[0] * p->ux + n[1] * p->uy;
+    const double n2 = n[1] * p->ux - n[0] * p->uy;
+    w->bound[w->bounds++] = (struct bound){n[2], n[3] + n1 * p->beyond,
+                                           -n1 * p->shell, -n2 * p->shell};
+  }
+  return true;
 }
 
 /* Adds what sphere i has of the shell to *sum, and to *united what of that is
    in its power cell. */
-static void add_patch(const struct work *w, size_t i,
-                      const struct area_shell *shell,
-                      const struct shell_work *room, double *sum,
-                      double *united) {
-  const double *xi = w->x + 3 * i, ri = w->r[i];
+static int add_patch(const struct power *cells, size_t i,
+                     const struct area_shell *shell, struct shell_work *w,
+                     double *sum, double *united) {
   struct patch p;
-  if (!patch_of(&p, xi, ri, shell))
-    return;
-  const double cx = xi[0] - shell->axis[0], cy = xi[1] - shell->axis[1];
-  const double ux = p.a > 0 ? cx / p.a : 1, uy = p.a > 0 ? cy / p.a : 0;
-  size_t count = 0;
-  if (shell->z[1] - xi[2] < p.height)
-    room->bounds[count++] = (struct bound){1, shell->z[1] - xi[2], 0, 0};
-  if (xi[2] - shell->z[0] < p.height)
-    room->bounds[count++] = (struct bound){-1, xi[2] - shell->z[0], 0, 0};
-  const size_t ends = count;
-  bool hidden = false;
-  for (size_t q = w->start[i]; q < w->start[i + 1]; q++) {
-    const size_t j = w->partner[q];
-    const double rj = w->r[j];
-    double d[3];
-    vec3_sub(w->x + 3 * j, xi, d);
-    const double distance = vec3_norm(d);
-    if (distance <= 1e-20 * (ri + rj)) {
-      hidden = hidden || within(w, i, j);
-      continue;
-    }
-    const double h = (distance + (ri - rj) * (ri + rj) / distance) / 2;
-    const double n1 = (d[0] * ux + d[1] * uy) / distance;
-    const double n2 = (d[1] * ux - d[0] * uy) / distance;
-    room->bounds[count++] = (struct bound){d[2] / distance, h + n1 * p.a,
-                                           -n1 * p.shell, -n2 * p.shell};
-  }
-  const double alone = patch_area(&p, room, ends);
+  const bool reaches = patch_of(&p, cells->x + 3 * i, cells->r[i], shell);
+  assert(reaches);
+  (void)reaches;
+  double alone, own = 0;
+  bound_ends(w, &p, cells->x[3 * i + 2], shell);
+  int status = patch_area(&p, w, &alone);
+  if (status == GSL_SUCCESS && bound_partners(w, &p, cells, i))
+    status = patch_area(&p, w, &own);
+  if (status != GSL_SUCCESS)
+    return status;
+  const double mantle = 2 * M_PI * shell->radius * (shell->z[1] - shell->z[0]);
+  assert(!(alone > mantle * (1 + 1e-9)));
+  assert(!(own > alone + 1e-9 * p.height * p.end * p.shell));
+  alone = fmin(alone, mantle);
   *sum += alone;
-  if (!hidden)
-    *united += count > ends ? patch_area(&p, room, count) : alone;
+  *united += fmin(own, alone);
+  return GSL_SUCCESS;
+}
+
+static void shell_work_free(struct shell_work *w) {
+  if (!w)
+    return;
+  for (size_t degree = 2; degree <= 4; degree++)
+    if (w->solver[degree])
+      gsl_poly_complex_workspace_free(w->solver[degree]);
+  free(w->meet);
+  free(w->bound);
+  free(w);
+}
+
+static int shell_work_alloc(struct shell_work **out, size_t most) {
+  struct shell_work *w = calloc(1, sizeof *w);
+  bool room = w != NULL;
+  if (w)
+    w->bound = calloc(most + 2, sizeof *w->bound);
+  for (size_t degree = 2; w && degree <= 4; degree++) {
+    w->solver[degree] = gsl_poly_complex_workspace_alloc(degree + 1);
+    room = room && w->solver[degree];
+  }
+  if (!room || !w->bound) {
+    shell_work_free(w);
+    return GSL_ENOMEM;
+  }
+  *out = w;
+  return GSL_SUCCESS;
 }
 
 int area_shell_covered(size_t n, const double *x, const double *r,
@@ -448,43 +577,23 @@ int area_shell_covered(size_t n, const double *x, const double *r,
       !isfinite(shell->axis[0]) || !isfinite(shell->axis[1]) ||
       isnan(shell->z[0]) || isnan(shell->z[1]))
     return GSL_EINVAL;
-  struct patch p;
-  size_t near = 0;
-  for (size_t i = 0; i < n; i++) {
-    if (!isfinite(x[3 * i]) || !isfinite(x[3 * i + 1]) ||
-        !isfinite(x[3 * i + 2]) || !isfinite(r[i]))
-      return GSL_EINVAL;
-    near += patch_of(&p, x + 3 * i, r[i], shell);
-  }
-  struct work w;
-  struct shell_work room = {0};
-  int status = work_alloc(&w, near);
+  struct power *cells;
+  struct shell_work *w = NULL;
+  int status = power_alloc(&cells, 3, n, x, r, patch_reaches, shell);
   if (status != GSL_SUCCESS)
-    goto done;
-  for (size_t i = 0; i < n; i++)
-    if (patch_of(&p, x + 3 * i, r[i], shell)) {
-      memcpy(w.x + 3 * w.n, x + 3 * i, 3 * sizeof *x);
-      w.r[w.n++] = r[i];
-    }
-  status = work_pairs(&w);
-  if (status != GSL_SUCCESS)
-    goto done;
-  const size_t most = w.most + 2;
-  room.bounds = calloc(most, sizeof *room.bounds);
-  room.meet = calloc(most * (most + 3) + 2, sizeof *room.meet);
-  room.quartic = gsl_poly_complex_workspace_alloc(5);
-  if (!room.bounds || !room.meet || !room.quartic) {
-    status = GSL_ENOMEM;
-    goto done;
+    return status;
+  double alone = 0, own = 0;
+  status = shell_work_alloc(&w, cells->most);
+  for (size_t i = 0; i < cells->n && status == GSL_SUCCESS; i++)
+    status = add_patch(cells, i, shell, w, &alone, &own);
+  if (status == GSL_SUCCESS) {
+    const double mantle =
+        2 * M_PI * shell->radius * (shell->z[1] - shell->z[0]);
+    assert(!(own > mantle * (1 + 1e-9)));
+    *sum = alone;
+    *united = own < mantle ? own : mantle;
   }
-  *sum = *united = 0;
-  for (size_t i = 0; i < w.n; i++)
-    add_patch(&w, i, shell, &room, sum, united);
-done:
-  if (room.quartic)
-    gsl_poly_complex_workspace_free(room.quartic);
-  free(room.meet);
-  free(room.bounds);
-  work_free(&w);
+  shell_work_free(w);
+  power_free(cells);
   return status;
 }

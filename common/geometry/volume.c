@@ -49,14 +49,14 @@
    the ball go beyond O(count^2). */
 #include "geometry/volume.h"
 
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_math.h>
+#include <assert.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
-#include <string.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_math.h>
 #include "geometry/halfspace.h"
-#include "geometry/neighbors.h"
+#include "geometry/power.h"
 #include "geometry/vec3.h"
 
 /* U of the above; h, e > 0, s of either sign. */
@@ -65,6 +65,10 @@ static double beyond(double r, double h, double e, double s) {
   return (2 * r * r * r * a + h * e * s -
           h * (3 * r * r - h * h) * atan2(s, e)) /
          6;
+}
+
+static double ball(double r) {
+  return 4 * M_PI / 3 * r * r * r;
 }
 
 static double cap(double r, double h) {
@@ -184,7 +188,7 @@ double volume_ball_planes(double r, size_t count, const double (*planes)[4]) {
     centre_inside = centre_inside && planes[i][3] > 0;
   }
   if (centre_inside)
-    volume += 4 * M_PI / 3 * r * r * r;
+    volume += ball(r);
   return volume < 0 ? 0 : volume; /* less than nothing is rounding */
 }
 
@@ -248,44 +252,26 @@ double volume_sum(size_t n, const double *x, const double *r,
   return sum.total + sum.lost;
 }
 
-/* The plane of equal power between spheres i and j, seen from i. False if the
-   two are concentric, to rounding. */
-static bool power_plane(const double xi[3], double ri, const double xj[3],
-                        double rj, double plane[4]) {
-  double d[3];
-  vec3_sub(xj, xi, d);
-  const double distance = vec3_norm(d);
-  if (distance <= 1e-20 * (ri + rj))
-    return false;
-  for (int k = 0; k < 3; k++)
-    plane[k] = d[k] / distance;
-  plane[3] = (distance + (ri - rj) * (ri + rj) / distance) / 2;
-  return true;
+/* What ball i has of its power cell and the box. planes: room for 6 more than
+   the most partners. */
+static double cell_volume(const struct power *p, size_t i, const double box[6],
+                          double (*planes)[4]) {
+  size_t count = box_planes(p->x + 3 * i, p->r[i], box, planes);
+  for (size_t q = p->start[i]; q < p->start[i + 1]; q++) {
+    const enum power_leaves leaves =
+        power_plane(p, i, p->partner[q], planes[count]);
+    if (leaves == POWER_NONE)
+      return 0;
+    count += leaves == POWER_HALF;
+  }
+  const double volume =
+      volume_ball_planes(p->r[i], count, (const double(*)[4])planes);
+  assert(!(volume > ball(p->r[i]) * (1 + 1e-9)));
+  return volume;
 }
 
-/* Sum over the spheres of what lies in each one's power cell and the box: the
-   cells share out space so that no point is counted twice. Sphere i's partners
-   are partner[start[i]] ... partner[start[i+1] - 1]; planes: room for 6 more
-   than the most partners. */
-static double sum_cells(size_t n, const double *x, const double *r,
-                        const double box[6], const size_t *start,
-                        const uint32_t *partner, double (*planes)[4]) {
-  struct sum sum = {0, 0};
-  for (size_t i = 0; i < n; i++) {
-    size_t count = box_planes(x + 3 * i, r[i], box, planes);
-    bool within = false; /* a concentric sphere */
-    for (size_t p = start[i]; p < start[i + 1] && !within; p++) {
-      const size_t j = partner[p];
-      if (power_plane(x + 3 * i, r[i], x + 3 * j, r[j], planes[count]))
-        count++;
-      else
-        within = r[j] > r[i] || (r[j] == r[i] && j < i);
-    }
-    if (!within)
-      sum_add(&sum,
-              volume_ball_planes(r[i], count, (const double(*)[4])planes));
-  }
-  return sum.total + sum.lost;
+static bool reaches(const double *c, double r, const void *box) {
+  return r > 0 && !empty(box) && !misses(c, r, box);
 }
 
 int volume_union(size_t n, const double *x, const double *r,
@@ -293,53 +279,19 @@ int volume_union(size_t n, const double *x, const double *r,
   for (int k = 0; k < 6; k++)
     if (isnan(box[k]))
       return GSL_EINVAL;
-  size_t near = 0;
-  for (size_t i = 0; i < n; i++) {
-    const double *c = x + 3 * i;
-    if (!isfinite(c[0]) || !isfinite(c[1]) || !isfinite(c[2]) ||
-        !isfinite(r[i]))
-      return GSL_EINVAL;
-    near += r[i] > 0 && !misses(c, r[i], box);
-  }
-  if (near == 0 || empty(box)) {
-    *volume = 0;
-    return GSL_SUCCESS;
-  }
-
-  struct neighbors nb = {0};
-  uint32_t *partner = NULL;
-  double(*planes)[4] = NULL;
-  size_t *start = calloc(near + 2, sizeof *start);
-  double *nx = calloc(near, 3 * sizeof *nx), *nr = calloc(near, sizeof *nr);
-  int status = GSL_ENOMEM;
-  if (!start || !nx || !nr)
-    goto done;
-  for (size_t i = 0, k = 0; i < n; i++)
-    if (r[i] > 0 && !misses(x + 3 * i, r[i], box)) {
-      memcpy(nx + 3 * k, x + 3 * i, 3 * sizeof *x);
-      nr[k++] = r[i];
-    }
-  status = neighbors_find(&nb, near, nx, 3, nr, 0);
-  if (status)
-    goto done;
-  status = GSL_ENOMEM;
-  partner = calloc(nb.count + 1, 2 * sizeof *partner);
-  if (!partner)
-    goto done;
-  planes =
-      calloc(neighbors_partners(&nb, near, start, partner) + 6, sizeof *planes);
-  if (!planes)
-    goto done;
-  *volume = sum_cells(near, nx, nr, box, start, partner, planes);
-  status = GSL_SUCCESS;
-done:
-  neighbors_free(&nb);
+  struct power *p;
+  const int status = power_alloc(&p, 3, n, x, r, reaches, box);
+  if (status != GSL_SUCCESS)
+    return status;
+  double(*planes)[4] = calloc(p->most + 6, sizeof *planes);
+  struct sum sum = {0, 0};
+  for (size_t i = 0; i < p->n && planes; i++)
+    sum_add(&sum, cell_volume(p, i, box, planes));
+  if (planes)
+    *volume = sum.total + sum.lost;
+  power_free(p);
   free(planes);
-  free(partner);
-  free(nr);
-  free(nx);
-  free(start);
-  return status;
+  return planes ? GSL_SUCCESS : GSL_ENOMEM;
 }
 
 static double midpoint(const double box[6], int axis, size_t count, size_t i) {
