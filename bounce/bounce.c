@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <gsl/gsl_complex_math.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
@@ -26,7 +25,7 @@ struct drop {
 struct watch {
   struct integrator *it;
   const struct drop *drop;
-  bool fixed;  /* --step */
+  const struct integrate_options *options;
   bool adapts; /* the method to stiffness */
   struct stiffness_limits limits;
   double weight;        /* of the contact's energy in what cannot grow */
@@ -98,7 +97,7 @@ static struct watch watch_start(struct integrator *it, const struct drop *d,
                                 const struct integrate_options *o) {
   const double e = d->law.restitution;
   struct watch w = {
-      .it = it, .drop = d, .fixed = o->step > 0, .weight = 0.5 * (1 + e * e)};
+      .it = it, .drop = d, .options = o, .weight = 0.5 * (1 + e * e)};
   const int status = integrate_limits(o->method, &w.limits);
   if (status == GSL_ENOMEM)
     die(EXIT_IO, "out of memory");
@@ -166,9 +165,7 @@ static void step_or_die(struct watch *w) {
   if (status != GSL_SUCCESS) {
     fflush(stdout);
     die(EXIT_INTEGRATION, "t=%.6g: %s", integrate_time(w->it),
-        status != GSL_FAILURE ? gsl_strerror(status)
-        : w->fixed            ? "forces overflow with this --step"
-                              : "no step is short enough for the tolerance");
+        integration_error(w->options, status));
   }
   watch_step(w);
 }
@@ -286,6 +283,7 @@ int main(int argc, char **argv) {
   if (operand < argc)
     die(EXIT_USAGE, "'%s': expected options only", argv[operand]);
   integrate_defaults(&integrate);
+  integration_check(&integrate, 1);
   const char *wrong = scene_check(&scene);
   if (wrong)
     die(EXIT_USAGE, "%s", wrong);

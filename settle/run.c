@@ -10,6 +10,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include "program/files.h"
+#include "program/integration.h"
 #include "model/rest.h"
 #include "platform/system.h"
 #include "dynamics/motion.h"
@@ -144,13 +145,6 @@ static int failed(double t, const char *what, const char *page, char *reason,
   return EXIT_INTEGRATION;
 }
 
-static const char *explain(const struct settings *s, int status) {
-  if (status != GSL_FAILURE)
-    return gsl_strerror(status);
-  return s->integrate.step > 0 ? "forces overflow with this --step"
-                               : "no step is short enough for the tolerance";
-}
-
 /* Steps until the end, rest or failure; the exit status and, in reason, what
    the bed is marked with. */
 static int integrate_all(struct run *r, char *reason, size_t size) {
@@ -161,7 +155,8 @@ static int integrate_all(struct run *r, char *reason, size_t size) {
     const int status = integrate_step(r->motion->integrator);
     const double t = integrate_time(r->motion->integrator);
     if (status != GSL_SUCCESS)
-      return failed(t, explain(s, status), "Missed collisions", reason, size);
+      return failed(t, integration_error(&s->integrate, status),
+                    "Missed collisions", reason, size);
     if (r->log)
       write_log(r);
     char found[80];

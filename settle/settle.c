@@ -1,33 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* settle: integrates a bed of spheres, from the paper's start or from a file,
    and writes its frames. */
-#include <string.h>
-#include <gsl/gsl_errno.h>
 #include "platform/system.h"
 #include "run.h"
 #include "program/shared_options.h"
 #include "start.h"
 
 static const char *const pair_searches[] = {"cells", "all", NULL};
-
-/* An implicit step solves a dense system, at a cost that grows as n^3. */
-enum { MSBDF_SPHERES = 64 };
-
-/* What single options cannot tell. */
-static void check(const struct settings *s, const struct bed *b) {
-  const struct integrate_options *o = &s->integrate;
-  if (!strcmp(o->method, "msbdf") && b->n > MSBDF_SPHERES)
-    die(EXIT_USAGE,
-        "--method msbdf: %zu spheres, expected at most %d (each step solves a "
-        "dense system)",
-        b->n, MSBDF_SPHERES);
-  if (!strcmp(o->method, "msbdf") && o->step > 0)
-    die(EXIT_USAGE, "--method msbdf: has no fixed step");
-  if (!strcmp(o->method, "verlet") && !(o->step > 0))
-    die(EXIT_USAGE, "--method verlet: expected a fixed --step");
-  if (s->time < b->t)
-    die(EXIT_USAGE, "--time %g: the start is at t=%g already", s->time, b->t);
-}
 
 int main(int argc, char **argv) {
   struct settings s = {.fill = {.count = 200,
@@ -100,7 +79,9 @@ int main(int argc, char **argv) {
   struct bed bed = {0};
   struct bed_header header = {0};
   start_make(&s, options, &bed, &header);
-  check(&s, &bed);
+  integration_check(&s.integrate, bed.n);
+  if (s.time < bed.t)
+    die(EXIT_USAGE, "--time %g: the start is at t=%g already", s.time, bed.t);
   s.threads = system_threads(s.threads);
   const int status = run(&s, &bed, &header);
   bed_free(&bed);

@@ -98,7 +98,7 @@ static void say(struct watch *w, const char *format, ...) {
 
 static bool paper_control(const struct watch *w) {
   const struct integrate_options *o = &w->set->integrate;
-  return !(o->step > 0) && !strcmp(o->control, "paper");
+  return !(o->step > 0) && integrate_control(o->control)->per_time;
 }
 
 /* The speed that a contact stops at touch (m/s). */
@@ -171,8 +171,7 @@ static void sample_stiffness(struct watch *w) {
   const double t = integrate_time(w->motion->integrator);
   const size_t before = dynamics_counts(w->motion->dynamics).evaluations;
   int status = GSL_SUCCESS;
-  if (!strcmp(w->set->integrate.method, "verlet")) {
-    /* whose derivative is that of the half step */
+  if (integrate_method(w->set->integrate.method)->half) {
     status = GSL_ODEIV_FN_EVAL(&s->system, t, y, s->rate);
     f = s->rate;
   }

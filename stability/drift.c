@@ -105,7 +105,7 @@ static double cost_of(const struct elastic *e,
    of all tried is taken; whether it is near enough for a chart of decades. */
 static bool search_cost(const struct elastic *e, struct integrate_options *o,
                         double cost) {
-  if (!strcmp(o->method, "verlet")) {
+  if (!integrate_method(o->method)->estimates) {
     o->step = e->unit / cost;
     return true;
   }

@@ -160,11 +160,12 @@ static double first_z(bool (*test)(struct pressed *, struct stepper_kind,
 static double theory(struct pressed *p, struct stepper_kind kind) {
   /* verlet: z'' = -w^2 z is stable for w h < 2. Where position does not enter,
      half' = (1 - h rate) half of the velocities at half steps: 2 as well. */
-  if (!strcmp(kind.method, "verlet"))
+  const struct integrate_method *m = integrate_method(kind.method);
+  if (m->layout)
     return 2;
   /* rkc left alone takes the stages it needs, up to 400, for 1.2 times its
      estimate of the spectral radius */
-  if (!strcmp(kind.method, "rkc") && !kind.stages)
+  if (m->adapts && !kind.stages)
     return chebyshev_reach(CHEBYSHEV_MOST) / 1.2;
   return first_z(amplifies, p, kind, 0.01);
 }
@@ -218,7 +219,7 @@ int verb_limits(int argc, char **argv) {
       die_status(status, "a pressed sphere");
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
       const bool by_itself =
-          !kinds[k].stages && !strcmp(kinds[k].method, "rkc");
+          !kinds[k].stages && integrate_method(kinds[k].method)->adapts;
       /* its choice of stages follows the real axis; and it refuses what is
          beyond, so few steps will do */
       if (by_itself && axis == IMAGINARY)

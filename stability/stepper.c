@@ -13,12 +13,11 @@
 
 int stepper_alloc(struct stepper *s, struct stepper_kind kind, size_t dim,
                   size_t row, size_t positions) {
-  const gsl_odeiv2_step_type *type = integrate_step_type(kind.method);
+  const struct integrate_method *m = integrate_method(kind.method);
   *s = (struct stepper){.kind = kind};
-  if (!type || type == gsl_odeiv2_step_msbdf ||
-      (kind.stages && (type != rkc || kind.stages < 2)))
+  if (!m || !m->fixed || (kind.stages && (*m->type != rkc || kind.stages < 2)))
     return GSL_EINVAL;
-  s->step = gsl_odeiv2_step_alloc(type, dim);
+  s->step = gsl_odeiv2_step_alloc(*m->type, dim);
   s->rate = malloc(4 * dim * sizeof *s->rate);
   if (!s->step || !s->rate) {
     stepper_free(s);
@@ -27,7 +26,7 @@ int stepper_alloc(struct stepper *s, struct stepper_kind kind, size_t dim,
   s->rate_out = s->rate + dim;
   s->error = s->rate_out + dim;
   s->scratch = s->error + dim;
-  if (type == verlet)
+  if (m->layout)
     verlet_set_layout(s->step, row, positions);
   return GSL_SUCCESS;
 }
@@ -96,8 +95,8 @@ int stepper_factor(struct stepper_kind kind, double re, double im,
   double lambda[2] = {re, im};
   const gsl_odeiv2_system sys = {
       .function = stiffness_linear, .dimension = 2, .params = lambda};
-  int status = strcmp(kind.method, "verlet") ? stepper_alloc(&s, kind, 2, 0, 0)
-                                             : GSL_EINVAL;
+  const struct integrate_method *m = integrate_method(kind.method);
+  int status = m && !m->layout ? stepper_alloc(&s, kind, 2, 0, 0) : GSL_EINVAL;
   if (status != GSL_SUCCESS)
     return status;
   factor[0] = 1;

@@ -158,8 +158,28 @@ refuse 'too many spheres' 2 '--count 1e30: expected' settle --count 1e30
 refuse 'msbdf with 200 spheres' 2 'msbdf.*200.*expected' settle --method msbdf
 refuse 'msbdf with fixed steps' 2 'msbdf' \
   settle --count 2 --method msbdf --step 0.001
-refuse 'verlet without a step' 2 '--method verlet: .*--step' \
-  settle --method verlet
+for program in settle bounce; do
+  refuse "$program: verlet without a step" 2 \
+    '^'$program': --method verlet: expected a fixed --step$' \
+    $program --method verlet
+  refuse "$program: msbdf with fixed steps" 2 \
+    '^'$program': --method msbdf: has no fixed step$' \
+    $program --method msbdf --step 0.001
+done
+
+# --help tells the defaults in use: bounce has its own, settle leaves them to the
+# method and the control.
+help_says() { # PROGRAM OPTION DEFAULT
+  "$B/$1" --help | sed -n "s/^  --$2 .*\\[\\(.*\\)\\]$/\\1/p" | grep -qxF -- "$3"
+}
+check 'bounce --help: control' help_says bounce control standard
+check 'bounce --help: tol' help_says bounce tol 1e-10
+check 'settle --help: control' help_says settle control 'paper; predictive for rkc'
+check 'settle --help: tol' help_says settle tol \
+  '0.1 for paper; 0.0005 for standard; 0.0005 for predictive'
+for name in merson rkc verlet paper predictive basic rotation; do
+  check "settle --help: $name" grep -Eq "^ +$name +[a-zA-Z]" <("$B/settle" --help)
+done
 refuse 'two numbers for gravity' 2 '--gravity.*expected one.*three' \
   settle --gravity 1,2
 refuse 'wall without a normal' 2 '--wall 0,0,0,0,0,0: expected' \

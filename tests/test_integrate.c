@@ -145,12 +145,12 @@ static void test_tolerance(void) {
   const double end = 5;
   for (size_t m = 0; adaptive_methods[m]; m++) {
     double most = 0;
-    for (size_t c = 0; integrate_controls[c]; c++)
+    for (size_t c = 0; integrate_controls[c].name; c++)
       for (int k = 0; k < 2; k++) {
         struct oscillators o = {0};
         const struct integrate_problem p = oscillators(&o);
         struct integrate_options opt = options(adaptive_methods[m]);
-        opt.control = integrate_controls[c];
+        opt.control = integrate_controls[c].name;
         opt.tol = k ? 1e-7 : 1e-4;
         struct integrator *it = start_oscillators(&opt, &p);
         CHECK(run(it, end));
@@ -225,9 +225,9 @@ static void test_scale(void) {
   struct oscillators o = {0};
   struct integrate_problem p = oscillators(&o);
   struct integrate_options opt = options("merson");
-  for (size_t c = 0; integrate_controls[c]; c++) {
+  for (size_t c = 0; integrate_controls[c].name; c++) {
     opt = options("merson");
-    opt.control = integrate_controls[c];
+    opt.control = integrate_controls[c].name;
     if (!strcmp(opt.control, "paper"))
       continue; /* has one tolerance for all */
     struct integrator *a = start_oscillators(&opt, &p);
@@ -250,7 +250,7 @@ static void test_scale(void) {
     const double mixed[DIM] = {1, 1, 1, 1e-4};
     p.scale = mixed;
     opt = options("merson");
-    opt.control = integrate_controls[c];
+    opt.control = integrate_controls[c].name;
     b = start_oscillators(&opt, &p);
     CHECK(run(b, 5));
     /* fourth order, and 1e4 in the tolerance: 1e2 with Merson's linear
@@ -296,9 +296,9 @@ static void test_options(void) {
     opt.hinit = no_step[k];
     CHECK(refused(&opt, &p));
   }
-  for (size_t c = 0; integrate_controls[c]; c++) {
+  for (size_t c = 0; integrate_controls[c].name; c++) {
     struct integrate_options opt = options("merson");
-    opt.control = integrate_controls[c];
+    opt.control = integrate_controls[c].name;
     opt.tol = -1;
     CHECK(refused(&opt, &p));
     opt.tol = 0;
@@ -311,9 +311,9 @@ static void test_options(void) {
 
   /* every method is known to these tests, and the other way round */
   size_t methods = 0, listed = 0;
-  for (; integrate_methods[methods]; methods++)
+  for (; integrate_methods[methods].name; methods++)
     for (size_t m = 0; adaptive_methods[m]; m++)
-      listed += !strcmp(integrate_methods[methods], adaptive_methods[m]);
+      listed += !strcmp(integrate_methods[methods].name, adaptive_methods[m]);
   CHECK(listed == COUNT(adaptive_methods) - 1);
   CHECK(methods == listed + 1);
 
@@ -327,9 +327,9 @@ static void test_options(void) {
 
   /* verlet: without a fixed step, without positions, with rows that do not
      add up to the unknowns or have no room for the velocities */
-  for (size_t c = 0; integrate_controls[c]; c++) {
+  for (size_t c = 0; integrate_controls[c].name; c++) {
     opt = options("verlet");
-    opt.control = integrate_controls[c];
+    opt.control = integrate_controls[c].name;
     CHECK(refused(&opt, &p));
   }
   const size_t layouts[][2] = {{2, 0}, {0, 0}, {3, 1}, {8, 1}, {2, 2}, {4, 3}};
@@ -353,6 +353,72 @@ static void test_options(void) {
   CHECK(refused(&opt, &without));
 }
 
+/* With damping, so that the rates at a half step differ from those at its
+   end. */
+static int damped_f(double t, const double y[], double dydt[], void *params) {
+  oscillators_f(t, y, dydt, params);
+  for (int k = 0; k < 2; k++)
+    dydt[2 * k + 1] -= 0.5 * y[2 * k + 1];
+  return GSL_SUCCESS;
+}
+
+/* What the tables say of each method and control is what it does. */
+static void test_tables(void) {
+  struct oscillators o = {0};
+  CHECK(!integrate_method(NULL) && !integrate_method("none"));
+  CHECK(!integrate_control(NULL) && !integrate_control("none"));
+  for (const struct integrate_control *c = integrate_controls; c->name; c++) {
+    CHECK(integrate_control(c->name) == c && c->help && c->tol > 0);
+    struct integrate_options opt = {.method = "merson", .control = c->name};
+    integrate_defaults(&opt);
+    CHECK(opt.tol == c->tol && !strcmp(opt.control, c->name));
+    /* abstol counts where tol is not a bound per unit step */
+    opt = options("merson");
+    opt.control = c->name;
+    opt.tol = 0;
+    opt.abstol = 1e-6;
+    const struct integrate_problem p = oscillators(&o);
+    double y[DIM] = {0};
+    struct integrator *it = NULL;
+    CHECK((integrate_alloc(&it, &opt, &p, 0, y) == GSL_EINVAL) == c->per_time);
+    integrate_free(it);
+  }
+  for (const struct integrate_method *m = integrate_methods; m->name; m++) {
+    struct integrate_options opt = {.method = m->name};
+    integrate_defaults(&opt);
+    CHECK(integrate_method(m->name) == m && m->help);
+    CHECK(!strcmp(opt.control, m->control->name) && opt.tol == m->control->tol);
+    for (int k = 0; k < 8; k++) { /* with or without step, Jacobian, layout */
+      struct integrate_problem p = oscillators(&o);
+      opt = options(m->name);
+      opt.step = k & 1 ? 0.01 : 0;
+      p.system.function = damped_f;
+      if (!(k & 2))
+        p.system.jacobian = NULL;
+      if (!(k & 4))
+        p.positions = 0;
+      const bool fits = (k & 1 ? m->fixed : m->estimates) &&
+                        (k & 2 || !m->jacobian) && (k & 4 || !m->layout);
+      double y[DIM];
+      oscillators_exact(0, y);
+      struct integrator *it = NULL;
+      CHECK(integrate_alloc(&it, &opt, &p, 0, y) ==
+            (fits ? GSL_SUCCESS : GSL_EINVAL));
+      if (fits && CHECK(integrate_step(it) == GSL_SUCCESS)) {
+        double f[DIM];
+        damped_f(0, integrate_state(it), f, &o);
+        CHECK(same(f, integrate_derivative(it)) == !m->half ||
+              /* msbdf's own, to its tolerance */
+              (m->jacobian && distance(f, integrate_derivative(it)) < 1e-3));
+      }
+      integrate_free(it);
+    }
+    struct stiffness_limits l;
+    CHECK(integrate_limits(m->name, &l) ==
+          (m->adapts ? GSL_EINVAL : GSL_SUCCESS));
+  }
+}
+
 /* --- bookkeeping -----------------------------------------------------------*/
 
 /* Every attempt costs what the method costs, the first derivative one more:
@@ -364,11 +430,11 @@ static void test_counts(void) {
   } costs[] = {
       {"merson", 5}, {"dopri5", 6}, {"rkf45", 6}, {"rkck", 6}, {"rk8pd", 13}};
   for (size_t m = 0; m < COUNT(costs); m++)
-    for (size_t c = 0; integrate_controls[c]; c++) {
+    for (size_t c = 0; integrate_controls[c].name; c++) {
       struct oscillators o = {0};
       const struct integrate_problem p = oscillators(&o);
       struct integrate_options opt = options(costs[m].method);
-      opt.control = integrate_controls[c];
+      opt.control = integrate_controls[c].name;
       opt.hinit = 3; /* to be rejected */
       struct integrator *it = start_oscillators(&opt, &p);
       CHECK(integrate_counts(it).accepted == 0);
@@ -523,12 +589,12 @@ static void test_interpolation_ends(void) {
 /* Asking changes nothing. */
 static void test_interpolation_free(void) {
   for (size_t m = 0; adaptive_methods[m]; m++)
-    for (size_t c = 0; integrate_controls[c]; c++) {
+    for (size_t c = 0; integrate_controls[c].name; c++) {
       struct oscillators o[2] = {{0}, {0}};
       const struct integrate_problem p[2] = {oscillators(&o[0]),
                                              oscillators(&o[1])};
       struct integrate_options opt = options(adaptive_methods[m]);
-      opt.control = integrate_controls[c];
+      opt.control = integrate_controls[c].name;
       struct integrator *asked = start_oscillators(&opt, &p[0]);
       struct integrator *left = start_oscillators(&opt, &p[1]);
       bool alike = true;
@@ -562,12 +628,12 @@ static double limit(const double y[], const double dydt[], void *params) {
 
 static void test_limits(void) {
   for (size_t m = 0; adaptive_methods[m]; m++)
-    for (size_t c = 0; integrate_controls[c]; c++)
+    for (size_t c = 0; integrate_controls[c].name; c++)
       for (int way = 1; way < 4; way++) {
         struct oscillators o = {0};
         struct integrate_problem p = oscillators(&o);
         struct integrate_options opt = options(adaptive_methods[m]);
-        opt.control = integrate_controls[c];
+        opt.control = integrate_controls[c].name;
         opt.tol = 1; /* would take any step */
         opt.hinit = 5;
         const double hmax = way & 1 ? 0.017 : GSL_POSINF;
@@ -649,13 +715,13 @@ static void test_collapse(void) {
 /* --- fixed steps -----------------------------------------------------------*/
 
 static void test_fixed(void) {
-  for (size_t m = 0; integrate_methods[m]; m++) {
-    if (!strcmp(integrate_methods[m], "msbdf"))
+  for (size_t m = 0; integrate_methods[m].name; m++) {
+    if (!strcmp(integrate_methods[m].name, "msbdf"))
       continue; /* has no fixed steps, see test_options */
     struct oscillators o = {0};
     struct integrate_problem p = oscillators(&o);
     p.step_limit = limit; /* not for fixed steps */
-    struct integrate_options opt = options(integrate_methods[m]);
+    struct integrate_options opt = options(integrate_methods[m].name);
     opt.step = 1. / 16;
     opt.tol = 1e-300; /* nor is this */
     struct integrator *it = start_oscillators(&opt, &p);
@@ -741,12 +807,12 @@ static double far(const double y[], const double dydt[], void *params) {
    inside is found. */
 static void test_region_avoided(void) {
   for (size_t m = 0; adaptive_methods[m]; m++)
-    for (size_t c = 0; integrate_controls[c]; c++) {
+    for (size_t c = 0; integrate_controls[c].name; c++) {
       struct bounded b = {100, 1, -2, 3, 0};
       const struct integrate_problem p = {
           .system = {bounded_f, bounded_jacobian, 1, &b}, .scale = ones};
       struct integrate_options opt = options(adaptive_methods[m]);
-      opt.control = integrate_controls[c];
+      opt.control = integrate_controls[c].name;
       opt.tol = 1e-6;
       opt.hinit = 10;
       struct integrator *it = start(&opt, &p, 0, (const double[]){0});
@@ -768,14 +834,14 @@ static void test_region_avoided(void) {
    fixed 100 evaluations is more than any attempt of these takes. */
 static void test_region_entered(void) {
   for (size_t m = 0; adaptive_methods[m]; m++)
-    for (size_t c = 0; integrate_controls[c]; c++)
+    for (size_t c = 0; integrate_controls[c].name; c++)
       for (int limited = 0; limited < 2; limited++) {
         /* y = 2 (1 - exp(-t ln 2)) reaches 1 at t = 1 */
         struct bounded b = {M_LN2, 2, -1, 1, 0};
         struct integrate_problem p = {
             .system = {bounded_f, bounded_jacobian, 1, &b}, .scale = ones};
         struct integrate_options opt = options(adaptive_methods[m]);
-        opt.control = integrate_controls[c];
+        opt.control = integrate_controls[c].name;
         opt.tol = 1e-6;
         p.step_limit = limited ? far : NULL;
         struct integrator *it = start(&opt, &p, 0, (const double[]){0});
@@ -850,8 +916,8 @@ static void test_fixed_failure(void) {
    right-hand side fails with any code: no other step instead. */
 static void test_fixed_refused(void) {
   const int codes[] = {GSL_EBADFUNC, GSL_EFAULT, GSL_ENOMEM, GSL_FAILURE};
-  for (size_t m = 0; integrate_methods[m]; m++) {
-    if (!strcmp(integrate_methods[m], "msbdf"))
+  for (size_t m = 0; integrate_methods[m].name; m++) {
+    if (!strcmp(integrate_methods[m].name, "msbdf"))
       continue; /* has no fixed steps, see test_options */
     for (size_t k = 0; k <= COUNT(codes); k++) {
       const bool stiff = k == COUNT(codes);
@@ -860,9 +926,9 @@ static void test_fixed_refused(void) {
       struct integrate_problem p = oscillators(&o);
       if (stiff)
         p.system = (gsl_odeiv2_system){bounded_f, bounded_jacobian, 1, &b};
-      if (stiff && !strcmp(integrate_methods[m], "verlet"))
+      if (stiff && !strcmp(integrate_methods[m].name, "verlet"))
         continue; /* has no positions */
-      struct integrate_options opt = options(integrate_methods[m]);
+      struct integrate_options opt = options(integrate_methods[m].name);
       opt.step = 1;
       double y[DIM];
       oscillators_exact(0, y);
@@ -903,14 +969,14 @@ static int noise_jacobian(double t, const double y[], double *dfdy,
 static void test_control_gives_up(void) {
   const double most = log(1e17) / -log(0.9) * 100;
   for (size_t m = 0; adaptive_methods[m]; m++)
-    for (size_t c = 0; integrate_controls[c]; c++) {
-      if (!strcmp(integrate_controls[c], "paper"))
+    for (size_t c = 0; integrate_controls[c].name; c++) {
+      if (integrate_controls[c].per_time)
         continue; /* takes any step below 1e-9 */
       size_t calls = 0;
       const struct integrate_problem p = {
           .system = {noise_f, noise_jacobian, 1, &calls}, .scale = ones};
       struct integrate_options opt = options(adaptive_methods[m]);
-      opt.control = integrate_controls[c];
+      opt.control = integrate_controls[c].name;
       opt.tol = 1e-300;
       struct integrator *it = start(&opt, &p, 1, (const double[]){0.7});
       for (int k = 0; k < 2; k++) {
@@ -994,11 +1060,11 @@ static void test_single_failure(void) {
    one ends there exactly, and none follows until there is a new stop. */
 static void test_stop(void) {
   const double stops[] = {1.7, 1.7 + 1. / 3};
-  for (size_t m = 0; integrate_methods[m]; m++) {
-    const bool fixed = !strcmp(integrate_methods[m], "verlet");
+  for (size_t m = 0; integrate_methods[m].name; m++) {
+    const bool fixed = !strcmp(integrate_methods[m].name, "verlet");
     struct oscillators o = {0}, q = {0};
     struct integrate_problem p = oscillators(&o), free_run = oscillators(&q);
-    struct integrate_options opt = options(integrate_methods[m]);
+    struct integrate_options opt = options(integrate_methods[m].name);
     opt.step = fixed ? 1. / 1024 : 0;
     struct integrator *it = start_oscillators(&opt, &p),
                       *other = start_oscillators(&opt, &free_run);
@@ -1039,6 +1105,7 @@ int main(void) {
   test_stiff();
   test_scale();
   test_options();
+  test_tables();
   test_counts();
   test_start();
   test_interpolation_order();

@@ -2,8 +2,29 @@
 #include "model/scene.h"
 
 #include <stdlib.h>
+#include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
+
+const struct scene_variant scene_models[] = {
+    [SCENE_BASIC] = {.name = "basic", .help = "repulsion alone"},
+    [SCENE_FRICTION] = {.name = "friction",
+                        .help = "with friction",
+                        .friction = true},
+    [SCENE_ROTATION] = {.name = "rotation",
+                        .help = "with friction and spin",
+                        .friction = true,
+                        .rotation = true},
+    {0}};
+
+int scene_model_named(const char *name, enum scene_model *model) {
+  for (size_t m = 0; scene_models[m].name; m++)
+    if (!strcmp(name, scene_models[m].name)) {
+      *model = (enum scene_model)m;
+      return GSL_SUCCESS;
+    }
+  return GSL_EINVAL;
+}
 
 struct scene scene_default(void) {
   return (struct scene){.model = SCENE_ROTATION,
@@ -18,11 +39,11 @@ struct scene scene_default(void) {
 }
 
 bool scene_has_friction(const struct scene *s) {
-  return s->model != SCENE_BASIC && s->law.friction > 0;
+  return scene_models[s->model].friction && s->law.friction > 0;
 }
 
 bool scene_has_rotation(const struct scene *s) {
-  return s->model == SCENE_ROTATION && s->law.friction > 0;
+  return scene_models[s->model].rotation && s->law.friction > 0;
 }
 
 int scene_add_wall(struct scene *s, const double point[3],

@@ -11,6 +11,16 @@
 /* The paper's three variants (section 3). */
 enum scene_model { SCENE_BASIC, SCENE_FRICTION, SCENE_ROTATION };
 
+/* What they have, by number; the last has no name. */
+struct scene_variant {
+  const char *name, *help;
+  bool friction, rotation;
+};
+extern const struct scene_variant scene_models[];
+
+/* The variant of that name, or GSL_EINVAL. */
+int scene_model_named(const char *name, enum scene_model *model);
+
 /* A plane; the spheres are on the side that the normal points away from. */
 struct wall {
   double point[3];  /* any point on it (m) */

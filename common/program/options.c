@@ -115,6 +115,16 @@ static const char *set_list(struct option_spec *o, const char *text) {
   return NULL;
 }
 
+/* The k-th choice's name, NULL after the last. */
+static const char *const *choice(const struct option_spec *o, size_t k) {
+  const size_t size = o->choice_size ? o->choice_size : sizeof *o->choices;
+  return (const char *const *)((const char *)o->choices + k * size);
+}
+
+static const char *choice_help(const struct option_spec *o, size_t k) {
+  return *(const char *const *)((const char *)choice(o, k) + o->choice_help);
+}
+
 const char *option_set(struct option_spec *o, const char *text) {
   double x;
   switch (o->type) {
@@ -134,7 +144,8 @@ const char *option_set(struct option_spec *o, const char *text) {
   case OPTION_TEXT:
     if (o->choices) {
       char list[160] = "one of";
-      for (const char *const *c = o->choices; *c; c++) {
+      const char *const *c;
+      for (size_t k = 0; *(c = choice(o, k)); k++) {
         if (!strcmp(*c, text)) {
           *(const char **)o->value = *c;
           return NULL;
@@ -191,6 +202,18 @@ void option_text(const struct option_spec *o, char *text, size_t size) {
   }
 }
 
+static void print_choices(const struct option_spec *o) {
+  if (o->choice_help)
+    for (size_t k = 0; *choice(o, k); k++)
+      printf("  %-18s   %-10s %s\n", "", *choice(o, k), choice_help(o, k));
+  else {
+    printf("  %-18s one of", "");
+    for (size_t k = 0; *choice(o, k); k++)
+      printf(" %s", *choice(o, k));
+    putchar('\n');
+  }
+}
+
 static void print_help(const struct program *p) {
   printf("Usage: %s %s\n%s\n\nOptions (defaults in brackets):\n", p->name,
          p->usage, p->summary);
@@ -208,15 +231,15 @@ static void print_help(const struct program *p) {
     option_text(o, value, sizeof value);
     const bool unset =
         o->type == OPTION_DOUBLE && !in_range(o, *(const double *)o->value);
-    if (o->type != OPTION_FLAG && *value && !unset)
+    if (unset)
+      *value = 0;
+    if (!*value && o->unset)
+      o->unset(value, sizeof value);
+    if (o->type != OPTION_FLAG && *value)
       printf(" [%s]", value);
     putchar('\n');
-    if (o->choices) {
-      printf("  %-18s one of", "");
-      for (const char *const *c = o->choices; *c; c++)
-        printf(" %s", *c);
-      putchar('\n');
-    }
+    if (o->choices)
+      print_choices(o);
   }
   printf("  %-18s this text\n  %-18s name and version\n", "--help",
          "--version");

@@ -35,14 +35,26 @@ struct option_spec {
   enum option_type type;
   void *value; /* holds the default until it is set */
   double least, most;
-  const char *const *choices; /* NULL-terminated */
+  /* NULL-terminated names; or those of a table of structs (OPTION_TABLE), each
+     so many bytes after the last, with its help so many bytes after it. */
+  const char *const *choices;
+  size_t choice_size, choice_help;
   const char *unit, *help;
+  /* What --help says of the default where the value is none; or NULL. */
+  void (*unset)(char *text, size_t size);
   bool parameter; /* of the scene: stands in a bed's header */
   bool given;     /* set from the command line */
   /* For a repeatable option: called with every value instead of storing it. */
   int (*each)(const struct option_list *value, void *context);
   void *context;
 };
+
+/* Choices of an array of structs with members name and help, which ends with a
+   NULL name. */
+#define OPTION_TABLE(table)                                                    \
+  .choices = &(table)->name, .choice_size = sizeof *(table),                   \
+  .choice_help =                                                               \
+      (size_t)((const char *)&(table)->help - (const char *)&(table)->name)
 
 /* No limit: the largest count that an option can hold. */
 #define OPTION_MANY NUMBER_MOST_WHOLE

@@ -2,17 +2,12 @@
 #include "program/scene_options.h"
 
 #include <stdio.h>
-#include <string.h>
+#include <gsl/gsl_errno.h>
 #include "program/shared_options.h"
-
-const char *const scene_models[] = {[SCENE_BASIC] = "basic",
-                                    [SCENE_FRICTION] = "friction",
-                                    [SCENE_ROTATION] = "rotation",
-                                    NULL};
 
 struct scene_words scene_words_default(void) {
   const struct scene s = scene_default();
-  return (struct scene_words){scene_models[s.model], {1, {-s.gravity[2]}}};
+  return (struct scene_words){scene_models[s.model].name, {1, {-s.gravity[2]}}};
 }
 
 int scene_wall_option(const struct option_list *v, void *scene) {
@@ -21,9 +16,8 @@ int scene_wall_option(const struct option_list *v, void *scene) {
 
 const char *scene_finish(struct scene *s, const struct scene_words *w) {
   const struct option_list *g = &w->gravity;
-  for (int m = 0; scene_models[m]; m++)
-    if (!strcmp(w->model, scene_models[m]))
-      s->model = (enum scene_model)m;
+  if (scene_model_named(w->model, &s->model) != GSL_SUCCESS)
+    return "model: expected basic, friction or rotation";
   if (g->count != 1 && g->count != 3)
     return "gravity: expected one number or three";
   for (int k = 0; k < 3; k++)

@@ -11,12 +11,9 @@
 
 /* What options say of a scene in other words than struct scene. */
 struct scene_words {
-  const char *model;          /* one of scene_models */
+  const char *model;          /* name of one of scene_models */
   struct option_list gravity; /* one number, downwards, or three */
 };
-
-/* basic, friction, rotation, as enum scene_model has them; then NULL. */
-extern const char *const scene_models[];
 
 /* The words for scene_default(). */
 struct scene_words scene_words_default(void);

@@ -5,6 +5,7 @@
 
 #include <float.h>
 #include "steppers/integrate.h"
+#include "program/integration.h"
 #include "program/options.h"
 #include "program/scene_options.h"
 
@@ -20,12 +21,13 @@
 /* Integration, into a struct integrate_options o and the travel limit. */
 #define INTEGRATION_OPTIONS(o, travel)                                         \
   {.name = "method", .type = OPTION_TEXT, .value = &(o).method,                \
-   .choices = integrate_methods, .help = "stepper", .parameter = true},        \
+   OPTION_TABLE(integrate_methods), .help = "stepper", .parameter = true},     \
   {.name = "control", .type = OPTION_TEXT, .value = &(o).control,              \
-   .choices = integrate_controls, .help = "step control",                      \
-   .unit = "by method: predictive for rkc, else paper", .parameter = true},    \
-  POSITIVE("tol", &(o).tol,                                                    \
-           "by control: paper 0.1 (m/s^2), else 5e-4 (m/s)", "tolerance"),    \
+   OPTION_TABLE(integrate_controls), .help = "step control",                   \
+   .parameter = true, .unset = integration_control_unset},                     \
+  {.name = "tol", .type = OPTION_DOUBLE, .value = &(o).tol, .least = DBL_MIN,  \
+   .most = OPTION_MANY, .unit = "m/s, or m/s^2 for paper control",             \
+   .help = "tolerance", .parameter = true, .unset = integration_tol_unset},    \
   NUMBER("abstol", &(o).abstol, 0, OPTION_MANY, "m/s; 0: as --tol",            \
          "absolute tolerance but for paper control"),                          \
   NUMBER("reltol", &(o).reltol, 0, OPTION_MANY, "",                            \
@@ -48,7 +50,7 @@
    completes it. */
 #define SCENE_OPTIONS(s, w)                                                    \
   {.name = "model", .type = OPTION_TEXT, .value = &(w).model,                  \
-   .choices = scene_models, .help = "variant", .parameter = true},             \
+   OPTION_TABLE(scene_models), .help = "variant", .parameter = true},          \
   LAW_OPTIONS((s).law),                                                        \
   NUMBER("friction", &(s).law.friction, 0, OPTION_MANY, "",                    \
          "friction coefficient phi"),                                          \

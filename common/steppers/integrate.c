@@ -11,11 +11,124 @@
 #include "steppers/merson.h"
 #include "steppers/verlet.h"
 
-const char *const integrate_methods[] = {"merson", "dopri5", "rkf45",
-                                         "rkck",   "rk8pd",  "rkc",
-                                         "verlet", "msbdf",  NULL};
-const char *const integrate_controls[] = {"paper", "standard", "predictive",
-                                          NULL};
+enum { PAPER, STANDARD, PREDICTIVE };
+
+static double absolute_tolerance(const struct integrate_options *o) {
+  return o->abstol > 0 ? o->abstol : o->tol;
+}
+
+static gsl_odeiv2_control *make_paper(const struct integrate_options *o,
+                                      const double *scale, size_t dim) {
+  (void)scale;
+  (void)dim;
+  return control_paper_new(o->tol);
+}
+
+static gsl_odeiv2_control *make_standard(const struct integrate_options *o,
+                                         const double *scale, size_t dim) {
+  return gsl_odeiv2_control_scaled_new(absolute_tolerance(o), o->reltol, 1, 0,
+                                       scale, dim);
+}
+
+static gsl_odeiv2_control *make_predictive(const struct integrate_options *o,
+                                           const double *scale, size_t dim) {
+  return control_predictive_new(absolute_tolerance(o), o->reltol, scale, dim);
+}
+
+const struct integrate_control integrate_controls[] = {
+    [PAPER] = {.name = "paper",
+               .help = "the paper's: error per unit step",
+               .tol = 0.1,
+               .per_time = true,
+               .make = make_paper},
+    [STANDARD] = {.name = "standard",
+                  .help = "GSL's: error of each unknown by its scale",
+                  .tol = 5e-4,
+                  .make = make_standard},
+    [PREDICTIVE] = {.name = "predictive",
+                    .help = "the same, the next step from the last two errors",
+                    .tol = 5e-4,
+                    .make = make_predictive},
+    {0}};
+
+static void prepare_rkc(gsl_odeiv2_step *s, const struct integrate_problem *p) {
+  rkc_set_system(s, p->stage, p->threads);
+}
+
+static void prepare_verlet(gsl_odeiv2_step *s,
+                           const struct integrate_problem *p) {
+  verlet_set_layout(s, p->row, p->positions);
+}
+
+const struct integrate_method integrate_methods[] = {
+    {.name = "merson",
+     .help = "Runge-Kutta-Merson, order 4: the paper's",
+     .type = &merson,
+     .control = &integrate_controls[PAPER],
+     .estimates = true,
+     .fixed = true},
+    {.name = "dopri5",
+     .help = "Dormand-Prince, order 5 (MATLAB's ode45)",
+     .type = &dopri5,
+     .control = &integrate_controls[PAPER],
+     .estimates = true,
+     .fixed = true},
+    {.name = "rkf45",
+     .help = "Runge-Kutta-Fehlberg, order 5",
+     .type = &gsl_odeiv2_step_rkf45,
+     .control = &integrate_controls[PAPER],
+     .estimates = true,
+     .fixed = true},
+    {.name = "rkck",
+     .help = "Runge-Kutta-Cash-Karp, order 5",
+     .type = &gsl_odeiv2_step_rkck,
+     .control = &integrate_controls[PAPER],
+     .estimates = true,
+     .fixed = true},
+    {.name = "rk8pd",
+     .help = "Prince-Dormand, order 8",
+     .type = &gsl_odeiv2_step_rk8pd,
+     .control = &integrate_controls[PAPER],
+     .estimates = true,
+     .fixed = true},
+    {.name = "rkc",
+     .help = "Runge-Kutta-Chebyshev, order 2, for stiff friction",
+     .type = &rkc,
+     .control = &integrate_controls[PREDICTIVE],
+     .estimates = true,
+     .fixed = true,
+     .adapts = true,
+     .prepare = prepare_rkc},
+    {.name = "verlet",
+     .help = "velocity Verlet, needs a fixed --step",
+     .type = &verlet,
+     .control = &integrate_controls[PAPER],
+     .fixed = true,
+     .layout = true,
+     .half = true,
+     .prepare = prepare_verlet},
+    {.name = "msbdf",
+     .help = "backward differentiation, implicit, for few spheres",
+     .type = &gsl_odeiv2_step_msbdf,
+     .control = &integrate_controls[PAPER],
+     .estimates = true,
+     .jacobian = true,
+     .adapts = true},
+    {0}};
+
+const struct integrate_method *integrate_method(const char *name) {
+  for (const struct integrate_method *m = integrate_methods; m->name; m++)
+    if (name && !strcmp(name, m->name))
+      return m;
+  return NULL;
+}
+
+const struct integrate_control *integrate_control(const char *name) {
+  for (const struct integrate_control *c = integrate_controls; c->name; c++)
+    if (name && !strcmp(name, c->name))
+      return c;
+  return NULL;
+}
 
 struct integrator {
   gsl_odeiv2_system system; /* first: the multistep methods point to it */
@@ -35,38 +148,12 @@ struct integrator {
 };
 
 void integrate_defaults(struct integrate_options *o) {
-  if (!o->control)
-    o->control = strcmp(o->method, "rkc") ? "paper" : "predictive";
-  if (o->tol == 0)
-    o->tol = strcmp(o->control, "paper") ? 5e-4 : 0.1;
-}
-
-const gsl_odeiv2_step_type *integrate_step_type(const char *method) {
-  const struct {
-    const char *name;
-    const gsl_odeiv2_step_type *type;
-  } methods[] = {{"merson", merson},
-                 {"dopri5", dopri5},
-                 {"rkf45", gsl_odeiv2_step_rkf45},
-                 {"rkck", gsl_odeiv2_step_rkck},
-                 {"rk8pd", gsl_odeiv2_step_rk8pd},
-                 {"rkc", rkc},
-                 {"verlet", verlet},
-                 {"msbdf", gsl_odeiv2_step_msbdf}};
-  for (size_t i = 0; i < sizeof methods / sizeof *methods; i++)
-    if (!strcmp(method, methods[i].name))
-      return methods[i].type;
-  return NULL;
-}
-
-static gsl_odeiv2_control *make_control(const struct integrate_options *o,
-                                        const double *scale, size_t dim) {
-  if (!strcmp(o->control, "paper"))
-    return control_paper_new(o->tol);
-  const double abstol = o->abstol > 0 ? o->abstol : o->tol;
-  if (!strcmp(o->control, "predictive"))
-    return control_predictive_new(abstol, o->reltol, scale, dim);
-  return gsl_odeiv2_control_scaled_new(abstol, o->reltol, 1, 0, scale, dim);
+  const struct integrate_method *m = integrate_method(o->method);
+  if (!o->control && m)
+    o->control = m->control->name;
+  const struct integrate_control *c = integrate_control(o->control);
+  if (o->tol == 0 && c)
+    o->tol = c->tol;
 }
 
 void integrate_free(struct integrator *it) {
@@ -83,28 +170,27 @@ void integrate_free(struct integrator *it) {
 
 static bool options_fit(const struct integrate_options *o,
                         const struct integrate_problem *p,
-                        const gsl_odeiv2_step_type *type) {
+                        const struct integrate_method *m) {
   const bool fixed = o->step > 0;
-  if (type == verlet)
-    return fixed && p->positions > 0 && 2 * p->positions <= p->row &&
-           p->system.dimension % p->row == 0;
-  if (type == gsl_odeiv2_step_msbdf && (fixed || !p->system.jacobian))
+  if ((fixed && !m->fixed) || (!fixed && !m->estimates) ||
+      (m->jacobian && !p->system.jacobian))
+    return false;
+  if (m->layout && !(p->positions > 0 && 2 * p->positions <= p->row &&
+                     p->system.dimension % p->row == 0))
     return false;
   if (fixed)
     return true;
-  bool known = false;
-  for (size_t i = 0; o->control && integrate_controls[i]; i++)
-    known = known || !strcmp(o->control, integrate_controls[i]);
-  return known && o->hinit > 0 && gsl_finite(o->hinit) && o->reltol >= 0 &&
-         (o->tol > 0 || (o->abstol > 0 && strcmp(o->control, "paper")));
+  const struct integrate_control *c = integrate_control(o->control);
+  return c && o->hinit > 0 && gsl_finite(o->hinit) && o->reltol >= 0 &&
+         (o->tol > 0 || (o->abstol > 0 && !c->per_time));
 }
 
 int integrate_alloc(struct integrator **out, const struct integrate_options *o,
                     const struct integrate_problem *problem, double t,
                     const double y[]) {
   const size_t dim = problem->system.dimension;
-  const gsl_odeiv2_step_type *type = integrate_step_type(o->method);
-  if (!type || !options_fit(o, problem, type))
+  const struct integrate_method *m = integrate_method(o->method);
+  if (!m || !options_fit(o, problem, m))
     return GSL_EINVAL;
   struct integrator *it = calloc(1, sizeof *it + 4 * dim * sizeof *y);
   if (!it)
@@ -120,18 +206,16 @@ int integrate_alloc(struct integrator **out, const struct integrate_options *o,
   it->t = t;
   it->h = o->hinit;
   memcpy(it->y, y, dim * sizeof *y);
-  it->step = gsl_odeiv2_step_alloc(type, dim);
+  it->step = gsl_odeiv2_step_alloc(*m->type, dim);
   it->evolve = gsl_odeiv2_evolve_alloc(dim);
   if (!(o->step > 0)) /* msbdf asks for a tolerance whatever its step */
-    it->control = make_control(o, problem->scale, dim);
+    it->control = integrate_control(o->control)->make(o, problem->scale, dim);
   if (!it->step || !it->evolve || (!it->control && !(o->step > 0))) {
     integrate_free(it);
     return GSL_ENOMEM;
   }
-  if (type == verlet)
-    verlet_set_layout(it->step, problem->row, problem->positions);
-  if (type == rkc)
-    rkc_set_system(it->step, problem->stage, problem->threads);
+  if (m->prepare)
+    m->prepare(it->step, problem);
   it->driver = (gsl_odeiv2_driver){
       .sys = &it->system, .s = it->step, .c = it->control, .e = it->evolve};
   gsl_odeiv2_step_set_driver(it->step, &it->driver);
@@ -238,11 +322,11 @@ const double *integrate_derivative(const struct integrator *it) {
 }
 
 int integrate_limits(const char *method, struct stiffness_limits *l) {
-  const gsl_odeiv2_step_type *type = integrate_step_type(method);
-  if (!type || type == rkc || type == gsl_odeiv2_step_msbdf)
+  const struct integrate_method *m = integrate_method(method);
+  if (!m || m->adapts)
     return GSL_EINVAL;
-  if (type != verlet)
-    return stiffness_limits(type, l);
+  if (!m->layout) /* a method for any system, such as the test equation */
+    return stiffness_limits(*m->type, l);
   for (size_t k = 0; k < STIFFNESS_RAYS; k++)
     l->at[k] = 2;
   return GSL_SUCCESS;

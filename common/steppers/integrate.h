@@ -12,26 +12,54 @@
 #include "steppers/stage.h"
 #include "steppers/stiffness.h"
 
-/* Names of methods and controls, NULL-terminated. */
-extern const char *const integrate_methods[];
-extern const char *const integrate_controls[];
-
-/* The step type of that name, or NULL; for work on the steppers themselves. */
-const gsl_odeiv2_step_type *integrate_step_type(const char *method);
-
 struct integrate_options {
   const char *method;
   const char *control;   /* NULL: by method; unused where step > 0 */
-  double tol;            /* paper: delta; else abstol where that is 0;
-                            0: by control */
-  double abstol, reltol; /* standard control, per unknown's scale */
+  double tol;            /* per_time control: delta; else abstol where that is
+                            0; 0: by control */
+  double abstol, reltol; /* unless per_time, per unknown's scale */
   double hinit;          /* first trial step (s) */
   double hmax;           /* longest step (s), 0: none */
   double step;           /* fixed step (s), 0: adaptive */
 };
 
-/* Sets what is left to the method: rkc has predictive control with tol 5e-4,
-   others the paper's with delta = 0.1. */
+/* A step control and what tells it from the others. */
+struct integrate_control {
+  const char *name, *help;
+  double tol;    /* by default */
+  bool per_time; /* tol bounds the error per unit step (m/s^2), and abstol and
+                    reltol mean nothing; else the error (m/s) */
+  gsl_odeiv2_control *(*make)(const struct integrate_options *o,
+                              const double *scale, size_t dim);
+};
+
+struct integrate_problem;
+
+/* A method and what tells it from the others. */
+struct integrate_method {
+  const char *name, *help;
+  const gsl_odeiv2_step_type *const *type;
+  const struct integrate_control *control; /* by default */
+  bool estimates; /* its error; else it needs a fixed step */
+  bool fixed;     /* takes a fixed step */
+  bool jacobian;  /* needs the system's, dense */
+  bool layout;    /* needs to know the rows' positions */
+  bool adapts;    /* to stiffness: it has no limit of stability */
+  bool half;      /* the derivative it hands on is that of the half step */
+  /* What a new step is told of the problem, or NULL. */
+  void (*prepare)(gsl_odeiv2_step *s, const struct integrate_problem *p);
+};
+
+/* All of them; the last has no name. */
+extern const struct integrate_method integrate_methods[];
+extern const struct integrate_control integrate_controls[];
+
+/* The one of that name, or NULL; name may be NULL. */
+const struct integrate_method *integrate_method(const char *name);
+const struct integrate_control *integrate_control(const char *name);
+
+/* Sets what is left open: the control by the method, the tolerance by the
+   control. */
 void integrate_defaults(struct integrate_options *o);
 
 struct integrate_problem {
@@ -83,7 +111,8 @@ const double *integrate_derivative(const struct integrator *it);
 
 /* Largest h |lambda| that a method takes without growth, by the angle of lambda
    (stiffness.h); verlet's is 2, for undamped oscillation and for friction.
-   GSL_SUCCESS, GSL_EINVAL for methods that adapt to stiffness, GSL_ENOMEM. */
+   GSL_SUCCESS, GSL_EINVAL for an unknown method or one that adapts to
+   stiffness, GSL_ENOMEM. */
 int integrate_limits(const char *method, struct stiffness_limits *l);
 
 /* What rkc has found so far, all 0 for other methods. */
