@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Boxes {x0, x1, y0, y1, z0, z1} along the axes (m). Pure inline functions,
-   safe in any thread. Tested in tests/test_analyze_structure.sh. */
+   safe in any thread. Tested in tests/test_analyze_structure.sh
+   and tests/test_solid.c. */
 #ifndef BOX_H
 #define BOX_H
 
@@ -13,6 +14,25 @@ static inline bool box_holds(const double box[6], const double x[3]) {
     if (!(x[k] >= box[2 * k] && x[k] <= box[2 * k + 1]))
       return false;
   return true;
+}
+
+/* Does it hold a ball whole? Has it nothing of it? */
+static inline bool box_holds_ball(const double box[6], const double c[3],
+                                  double r) {
+  for (int k = 0; k < 3; k++)
+    if (!(c[k] - r >= box[2 * k] && c[k] + r <= box[2 * k + 1]))
+      return false;
+  return true;
+}
+
+static inline bool box_misses_ball(const double box[6], const double c[3],
+                                   double r) {
+  double d2 = 0;
+  for (int k = 0; k < 3; k++) {
+    const double d = fmax(0, fmax(box[2 * k] - c[k], c[k] - box[2 * k + 1]));
+    d2 += d * d;
+  }
+  return d2 >= r * r;
 }
 
 static inline double box_volume(const double box[6]) {

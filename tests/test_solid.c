@@ -1,0 +1,291 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Spheres, bridges and walls: closed forms, a count along columns that know
+   nothing of a bridge's axis, sums over parts of a box. */
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_math.h>
+#include <gsl/gsl_rng.h>
+#include "check.h"
+#include "geometry/box.h"
+#include "geometry/solid.h"
+#include "geometry/volume.h"
+
+static const double everything[6] = {-9, 9, -9, 9, -9, 9};
+
+static struct solid_volume measured(const struct solid *s,
+                                    const double box[6]) {
+  struct solid_volume v = {.total = GSL_NAN, .error = GSL_NAN};
+  CHECK(solid_volume(s, box, &v) == GSL_SUCCESS);
+  return v;
+}
+
+/* Collar between two spheres on the z axis by Simpson's rule in long double;
+   s = sqrt(r^2 - rho^2) is smooth below X < r. */
+static long double collar(long double ra, long double rb, long double d,
+                          long double x) {
+  const long double foot = (d + (ra - rb) * (ra + rb) / d) / 2;
+  const long double from = d < ra + rb ? sqrtl(ra * ra - foot * foot) : 0;
+  enum { STEPS = 20000 };
+  long double sum = 0;
+  for (int i = 0; i <= STEPS; i++) {
+    const long double rho = from + (x - from) * i / STEPS;
+    const long double length =
+        d - sqrtl(ra * ra - rho * rho) - sqrtl(rb * rb - rho * rho);
+    sum += rho * length * (i == 0 || i == STEPS ? 1 : i % 2 ? 4 : 2);
+  }
+  return 2 * acosl(-1) * sum * (x - from) / STEPS / 3;
+}
+
+static void two(gsl_rng *rng, double ra, double rb, double d, double radius,
+                long double want) {
+  /* anywhere, in any direction */
+  double x[6], e[3];
+  const double r[2] = {ra, rb};
+  static const uint32_t ends[1][2] = {{0, 1}};
+  do
+    for (int k = 0; k < 3; k++)
+      e[k] = 2 * gsl_rng_uniform(rng) - 1;
+  while (vec3_norm(e) > 1);
+  for (int k = 0; k < 3; k++) {
+    x[k] = gsl_rng_uniform(rng);
+    x[3 + k] = x[k] + d * e[k] / vec3_norm(e);
+  }
+  const struct solid s = {.n = 2,
+                          .x = x,
+                          .r = r,
+                          .bridges = 1,
+                          .ends = ends,
+                          .bridge_radius = radius};
+  const struct solid_volume v = measured(&s, everything);
+  /* rounding: of d, over the collar's area, of terms of X^2 d, of places */
+  const double tol = 32 * DBL_EPSILON * radius * radius * (d + 4);
+  CHECK_CLOSE(v.bridges, (double)want, tol);
+  CHECK(v.error == 0);
+  double united;
+  CHECK(volume_union(2, x, r, everything, &united) == GSL_SUCCESS);
+  CHECK(v.spheres == united && v.total == v.spheres + v.bridges);
+  /* two parts, numerically now */
+  double box[6];
+  memcpy(box, everything, sizeof box);
+  box[1] = x[0];
+  const double left = measured(&s, box).bridges;
+  const double error = measured(&s, box).error;
+  box[0] = x[0];
+  box[1] = everything[1];
+  const double right = measured(&s, box).bridges;
+  CHECK_CLOSE(left + right, v.bridges, error + measured(&s, box).error + tol);
+}
+
+static void test_two(gsl_rng *rng) {
+  two(rng, 1, 1, 2, 0.3, collar(1, 1, 2, 0.3));         /* touching */
+  two(rng, 1, 1, 2.1, 0.3, collar(1, 1, 2.1, 0.3));     /* apart */
+  two(rng, 1, 1, 1.99, 0.3, collar(1, 1, 1.99, 0.3));   /* overlapping */
+  two(rng, 1, 0.4, 1.4, 0.3, collar(1, 0.4, 1.4, 0.3)); /* unequal */
+  two(rng, 1, 0.4, 1.39, 0.3, collar(1, 0.4, 1.39, 0.3));
+  two(rng, 1, 1, 1.9, 0.3, 0);    /* within the circle of contact */
+  two(rng, 1, 0.5, 0.55, 0.3, 0); /* almost concentric */
+  /* touching equal spheres, X << r: 2 rho^2/(2 r) high, pi X^4/(2 r) */
+  two(rng, 1, 1, 2, 1e-3, M_PI * 1e-12 / 2 * (1 + 1e-6 / 6));
+}
+
+/* The solid in a box by columns along x, count^2 of them. */
+static double by_columns(const struct solid *s, const double box[6],
+                         size_t count) {
+  double(*cut)[2] = calloc(s->n + s->bridges, sizeof *cut), sum = 0;
+  static const double e[3] = {1, 0, 0};
+  for (size_t j = 0; j < count; j++)
+    for (size_t k = 0; k < count; k++) {
+      const double at[2] = {((double)j + 0.5) / (double)count,
+                            ((double)k + 0.5) / (double)count};
+      const double p[3] = {0, box[2] + (box[3] - box[2]) * at[0],
+                           box[4] + (box[5] - box[4]) * at[1]};
+      size_t cuts = 0;
+      for (size_t i = 0; i < s->n; i++)
+        cuts += solid_line_ball(s->x + 3 * i, s->r[i], p, e, cut[cuts]);
+      for (size_t b = 0; b < s->bridges; b++)
+        cuts += solid_line_cylinder(s->x + 3 * s->ends[b][0],
+                                    s->x + 3 * s->ends[b][1], s->bridge_radius,
+                                    p, e, cut[cuts]);
+      sum += solid_covered(cuts, cut, box[0], box[1]);
+    }
+  free(cut);
+  return sum * (box[3] - box[2]) * (box[5] - box[4]) / (double)(count * count);
+}
+
+/* Bridges that cross each other, a third sphere and the box's faces. */
+static void test_crossing(gsl_rng *rng) {
+  enum { N = 12 };
+  double x[3 * N], r[N];
+  for (size_t i = 0; i < N; i++) {
+    r[i] = 0.15 + 0.05 * gsl_rng_uniform(rng);
+    for (int k = 0; k < 3; k++)
+      x[3 * i + (size_t)k] = gsl_rng_uniform(rng);
+  }
+  uint32_t(*ends)[2] = NULL;
+  size_t bridges = 0;
+  CHECK(solid_pairs(N, x, r, 0.1, &ends, &bridges) == GSL_SUCCESS);
+  CHECK(bridges > 10);
+  struct solid s = {.n = N,
+                    .x = x,
+                    .r = r,
+                    .bridges = bridges,
+                    .ends = (const uint32_t(*)[2])ends,
+                    .bridge_radius = 0.12};
+  static const double unit[6] = {0, 1, 0, 1, 0, 1};
+  const struct solid_volume v = measured(&s, unit);
+  CHECK(v.bridges > 0.005 && v.error > 0 && v.error < 1e-9);
+  struct solid spheres = s;
+  spheres.bridges = 0;
+  /* Columns miss of a surface what is curved within their spacing, about
+     spacing^1.5 at a rim. */
+  CHECK_CLOSE(by_columns(&s, unit, 400) - by_columns(&spheres, unit, 400),
+              v.bridges, 1e-5);
+  CHECK_CLOSE(by_columns(&s, unit, 400), v.total, 1e-5);
+  /* eight parts of the box */
+  double sum = 0, error = v.error;
+  for (int part = 0; part < 8; part++) {
+    double box[6];
+    for (int k = 0; k < 3; k++) {
+      const bool high = part >> k & 1;
+      box[2 * k] = high ? 0.45 : 0;
+      box[2 * k + 1] = high ? 1 : 0.45;
+    }
+    const struct solid_volume w = measured(&s, box);
+    sum += w.total;
+    error += w.error;
+  }
+  CHECK_CLOSE(sum, v.total, error + 1e-14);
+  /* in any order, also with one of them given twice */
+  uint32_t(*turned)[2] = calloc(bridges + 1, sizeof *turned);
+  for (size_t k = 0; k < bridges; k++) {
+    turned[k][0] = ends[bridges - 1 - k][1];
+    turned[k][1] = ends[bridges - 1 - k][0];
+  }
+  memcpy(turned[bridges], ends[0], sizeof *ends);
+  struct solid other = s;
+  other.ends = (const uint32_t(*)[2])turned;
+  other.bridges = bridges + 1;
+  const struct solid_volume w = measured(&other, unit);
+  CHECK_CLOSE(w.total, v.total, v.error + w.error + 1e-14);
+  /* walls: what is beyond is solid */
+  static const double container[6] = {0.1, 0.9, -1, 2, 0.2, 3};
+  s.container = container;
+  const struct solid_volume walled = measured(&s, unit);
+  static const double within[6] = {0.1, 0.9, 0, 1, 0.2, 1};
+  s.container = NULL;
+  const struct solid_volume inside = measured(&s, within);
+  CHECK_CLOSE(walled.walls, 1 - 0.8 * 0.8, 1e-15);
+  CHECK_CLOSE(walled.total, inside.total + 0.36, 1e-14);
+  static const double beyond[6] = {-1, 0, 0, 1, 0, 1};
+  s.container = container;
+  CHECK(measured(&s, beyond).total == 1 && measured(&s, beyond).walls == 1);
+  free(turned);
+  free(ends);
+}
+
+/* Distances and lines agree on what is inside. */
+static void test_primitives(gsl_rng *rng) {
+  size_t inside = 0;
+  for (int m = 0; m < 2000; m++) {
+    double a[3], b[3], p[3], e[3], t[2], q[3];
+    for (int k = 0; k < 3; k++) {
+      a[k] = gsl_rng_uniform(rng);
+      b[k] = a[k] + gsl_rng_uniform(rng) - 0.5;
+      p[k] = 2 * gsl_rng_uniform(rng) - 0.5;
+      e[k] = m % 3 ? 2 * gsl_rng_uniform(rng) - 1 : k == m % 9 / 3;
+    }
+    const double radius = 0.2 + 0.2 * gsl_rng_uniform(rng);
+    for (int what = 0; what < 2; what++) {
+#define DISTANCE(y)                                                            \
+  (what ? solid_cylinder_distance(a, b, radius, y)                             \
+        : solid_ball_distance(a, radius, y))
+      const bool meets = what ? solid_line_cylinder(a, b, radius, p, e, t)
+                              : solid_line_ball(a, radius, p, e, t);
+      bool right = true;
+      for (double s = -3; s < 3; s += 0.1) {
+        memcpy(q, p, sizeof q);
+        vec3_axpy(s, e, q);
+        const bool in = DISTANCE(q) < 0;
+        right = right && in == (meets && s > t[0] && s < t[1]);
+        inside += in;
+      }
+      CHECK(right);
+      for (int end = 0; end < 2 && meets; end++) {
+        memcpy(q, p, sizeof q);
+        vec3_axpy(t[end], e, q);
+        CHECK_CLOSE(DISTANCE(q), 0, 1e-12);
+      }
+    }
+    /* along the axis, which is a line parallel to the side */
+    vec3_sub(b, a, e);
+    CHECK(solid_line_cylinder(a, b, radius, a, e, t));
+    CHECK_CLOSE(t[0], 0, 1e-12);
+    CHECK_CLOSE(t[1], 1, 1e-12);
+  }
+  CHECK(inside > 300);
+  static const double box[6] = {0, 1, 0, 2, 0, 3};
+  CHECK(solid_beyond_distance(box, (double[3]){0.25, 1, 1}) == 0.25);
+  CHECK(solid_beyond_distance(box, (double[3]){0.25, 2.5, 1}) == -0.5);
+  double cuts[4][2] = {{3, 4}, {0, 1}, {0.5, 2}, {-5, -4}};
+  CHECK(solid_covered(4, cuts, -4.5, 3.5) == 3);
+  CHECK(solid_covered(0, cuts, 0, 1) == 0);
+}
+
+static void test_shrink(gsl_rng *rng) {
+  enum { N = 40 };
+  double x[3 * N], r[N];
+  for (int m = 0; m < 20; m++) {
+    const double gap = m % 4 ? 0.01 * m : 0;
+    for (size_t i = 0; i < N; i++) {
+      r[i] = 0.2 + 0.2 * gsl_rng_uniform(rng);
+      for (int k = 0; k < 3; k++)
+        x[3 * i + (size_t)k] = (m < 18 ? 1 : 20) * gsl_rng_uniform(rng);
+    }
+    double want = 1, factor = GSL_NAN;
+    for (size_t i = 0; i < N; i++)
+      for (size_t j = 0; j < i; j++) {
+        double d[3];
+        vec3_sub(x + 3 * i, x + 3 * j, d);
+        want = fmin(want, (vec3_norm(d) - gap) / (r[i] + r[j]));
+      }
+    const int status = solid_shrink(N, x, r, gap, &factor);
+    CHECK(status == (want > 0 ? GSL_SUCCESS : GSL_EDOM));
+    if (want > 0)
+      CHECK_CLOSE(factor, want, 4 * DBL_EPSILON);
+    else
+      CHECK(isnan(factor));
+  }
+}
+
+static void test_refusals(void) {
+  static const double x[6] = {0, 0, 0, 0, 0, 2}, r[2] = {1, 0.5};
+  static const uint32_t ends[1][2] = {{0, 1}};
+  struct solid s = {
+      .n = 2, .x = x, .r = r, .bridges = 1, .ends = ends, .bridge_radius = 0.5};
+  struct solid_volume v = {.total = 7};
+  CHECK(solid_volume(&s, everything, &v) == GSL_EDOM && v.total == 7);
+  s.bridge_radius = GSL_NAN;
+  CHECK(solid_volume(&s, everything, &v) == GSL_EDOM && v.total == 7);
+  const double bad[6] = {0, GSL_NAN, 0, 0, 0, 2};
+  s.bridge_radius = 0.1;
+  s.x = bad;
+  CHECK(solid_volume(&s, everything, &v) == GSL_EINVAL && v.total == 7);
+  s.x = NULL;
+  s.n = s.bridges = 0;
+  CHECK(measured(&s, everything).total == 0);
+}
+
+int main(void) {
+  gsl_set_error_handler_off();
+  gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+  gsl_rng_set(rng, 1);
+  test_two(rng);
+  test_crossing(rng);
+  test_primitives(rng);
+  test_shrink(rng);
+  test_refusals();
+  gsl_rng_free(rng);
+  return check_done();
+}
