@@ -11,6 +11,7 @@
 #include <gsl/gsl_roots.h>
 #include "program/options.h"
 #include "model/scene.h"
+#include "program/integration.h"
 #include "program/shared_options.h"
 #include "model/travel.h"
 #include "program/version.h"

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include "measure.h"
+#include "program/integration.h"
 #include "program/shared_options.h"
 #include "program/version.h"
 

@@ -3,6 +3,7 @@
    and writes its frames. */
 #include "platform/system.h"
 #include "run.h"
+#include "program/integration.h"
 #include "program/shared_options.h"
 #include "start.h"
 

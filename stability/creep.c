@@ -10,6 +10,7 @@
 #include <gsl/gsl_math.h>
 #include "model/closed_forms.h"
 #include "dynamics/motion.h"
+#include "program/integration.h"
 #include "program/shared_options.h"
 #include "verbs.h"
 

@@ -13,8 +13,8 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include "model/closed_forms.h"
-#include "steppers/integrate.h"
 #include "model/scene.h"
+#include "program/integration.h"
 #include "program/shared_options.h"
 #include "model/travel.h"
 #include "verbs.h"

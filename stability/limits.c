@@ -22,6 +22,7 @@
 #include "steppers/chebyshev.h"
 #include "steppers/rkc.h"
 #include "program/shared_options.h"
+#include "steppers/integrate.h"
 #include "stepper.h"
 #include "verbs.h"
 

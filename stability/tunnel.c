@@ -11,6 +11,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include "dynamics/motion.h"
+#include "program/integration.h"
 #include "program/shared_options.h"
 #include "verbs.h"
 

@@ -110,8 +110,13 @@ static const char *set_list(struct option_spec *o, const char *text) {
   }
   if (!o->each)
     *(struct option_list *)o->value = list;
-  else if (o->each(&list, o->context) != GSL_SUCCESS)
-    return expected("%s", o->unit);
+  else {
+    const int status = o->each(&list, o->context);
+    if (status == GSL_ENOMEM)
+      die(EXIT_IO, "out of memory");
+    if (status != GSL_SUCCESS)
+      return expected("%s", o->unit);
+  }
   return NULL;
 }
 

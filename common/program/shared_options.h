@@ -4,8 +4,6 @@
 #define SHARED_OPTIONS_H
 
 #include <float.h>
-#include "steppers/integrate.h"
-#include "program/integration.h"
 #include "program/options.h"
 #include "program/scene_options.h"
 
