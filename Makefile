@@ -67,7 +67,7 @@ $(LIBRARY): $(COMMON_OBJECTS)
 	@rm -f $@
 	$(AR) rcs $@ $^
 
-LINK = $(CC) $(ALL_CFLAGS) $(LDFLAGS) $^ $(GSL_LIBS) $(LIBMVEC) -lm -o $@
+LINK = $(CC) $(ALL_CFLAGS) $(LDFLAGS) $(WRAPPED) $^ $(GSL_LIBS) $(LIBMVEC) -lm -o $@
 # Each program is a folder of sources.
 PROGRAMS := bounce settle analyze precision stability
 define program_rule
@@ -89,12 +89,12 @@ $(B)/tests/%: $(O)/tests/%.o $(LIBRARY)
 .SECONDARY:
 
 # What allocates is replaced by what can fail.
-$(B)/tests/test_memory: OPENMP += $(foreach f,malloc calloc realloc \
+$(B)/tests/test_memory: WRAPPED := $(foreach f,malloc calloc realloc \
 	gsl_odeiv2_step_alloc gsl_odeiv2_evolve_alloc \
 	gsl_odeiv2_control_scaled_new,-Wl,--wrap=$(f))
 
-check: all $(B)/stability $(TEST_PROGRAMS) ## run the tests (minutes)
-	@B=$(B) tests/run.sh $(TEST_PROGRAMS) $(TEST_SCRIPTS)
+check: all $(B)/precision $(B)/stability $(TEST_PROGRAMS) ## run the tests, JOBS=2 at a time (minutes)
+	@B=$(B) tests/run.sh $(TEST_SCRIPTS) $(TEST_PROGRAMS)
 
 # What the fuzzer finds is kept in B/fuzz; the small cases of tests/corpus are
 # read again by tests/test_formats.c.

@@ -1,18 +1,40 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The tests' one harness. A failed check prints where and what and the program
-   goes on; check_done() prints the line "N passed, N failed" and gives the
-   exit status. NaN never passes. */
+   goes on; check_done() prints how many sites (places in the source) checked
+   something, then the line "N passed, N failed", and gives the exit status. NaN
+   never passes. */
 #ifndef CHECK_H
 #define CHECK_H
 
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
-static size_t check_passed, check_failed;
+static size_t check_passed, check_failed, check_sites;
+
+/* Counts a site the first time that it checks something. */
+static inline void check_site(const char *file, int line) {
+  enum { MOST = 4096 };
+  static struct {
+    const char *file;
+    int line;
+  } seen[MOST];
+  size_t at = (size_t)line % MOST;
+  for (; seen[at].file; at = (at + 1) % MOST)
+    if (seen[at].line == line && !strcmp(seen[at].file, file))
+      return;
+  if (check_sites + 1 == MOST) /* the last place ends the search */
+    abort();
+  seen[at].file = file;
+  seen[at].line = line;
+  check_sites++;
+}
 
 static inline int check_report(bool ok, const char *file, int line,
                                const char *what) {
+  check_site(file, line);
   if (ok)
     check_passed++;
   else {
@@ -43,7 +65,8 @@ static inline int check_close(double got, double want, double tol,
               #got " ~ " #want " within " #tol " relative")
 
 static inline int check_done(void) {
-  printf("%zu passed, %zu failed\n", check_passed, check_failed);
+  printf("%zu sites\n%zu passed, %zu failed\n", check_sites, check_passed,
+         check_failed);
   return check_failed ? 1 : 0;
 }
 

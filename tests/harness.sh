@@ -8,13 +8,16 @@ B=${B:-build}
 T=$(mktemp -d) || exit 1
 trap 'rm -rf "$T"' EXIT
 passed=0 failed=0
+sites=() # by number: the lines of the script that checked something
 said= # what a check is of, if that is not in its name
 
 pass() {
+  sites[${BASH_LINENO[${#BASH_LINENO[@]} - 2]}]=1
   passed=$((passed + 1))
 }
 
 fail() { # NAME; what the last program said, if it is in $T/err, comes after it
+  sites[${BASH_LINENO[${#BASH_LINENO[@]} - 2]}]=1
   failed=$((failed + 1))
   echo "failed: ${said:+$said: }$1" >&2
   [[ ! -s $T/err ]] || head -n 5 "$T/err" >&2
@@ -35,6 +38,7 @@ within() { # NAME VALUE LOW HIGH: a number, and in that range
 }
 
 check_done() { # the last line, and the exit status of the script
+  echo "${#sites[@]} sites"
   echo "$passed passed, $failed failed"
   ((failed == 0))
 }

@@ -6,19 +6,17 @@
 # repository; B is the directory of the programs.
 . tests/harness.sh
 
-D=$B/quick/data
-rm -rf "$D/beds" "$D/precision/horizon"* "$D"/precision/trajectory* \
-  "$B"/quick/figures/precision-{settling,seeds,horizon,trajectory}* \
-  "$B"/quick/figures/stability-{map,wrong-bed,vibration}*
+D=$T/data
 targets='settling seeds trajectories stability-map stability-wrong-bed
   stability-vibration'
 # shellcheck disable=SC2086 # several words
-check 'make QUICK=1' make -s -j2 QUICK=1 B="$B" $targets >"$T/log" 2>&1 ||
+check 'make QUICK=1' make -s QUICK=1 B="$B" D="$D" F="$T/figures" \
+  $targets >"$T/log" 2>&1 ||
   cat "$T/log"
-for figure in quick/figures/precision-{settling,horizon} \
-  quick/figures/precision-trajectory-8-position-evaluations \
-  quick/figures/stability-{map,wrong-bed,vibration}; do
-  check "$figure.svg is a picture" grep -q '</svg>' "$B/$figure.svg"
+for figure in precision-{settling,horizon} \
+  precision-trajectory-8-position-evaluations \
+  stability-{map,wrong-bed,vibration}; do
+  check "$figure.svg is a picture" grep -q '</svg>' "$T/figures/$figure.svg"
 done
 
 # cell FILE CONDITION COLUMN: of the row where a condition on c("NAME") holds
@@ -46,7 +44,7 @@ within 'rkc takes less than a fifth of the evaluations of Merson' \
   "$(awk -v a="$(settled rkc 5e-4 evaluations)" \
     -v b="$(settled merson 0.1 evaluations)" 'BEGIN { print a / b }')" 0 0.2
 check 'seeds: a row a seed' test \
-  "$(grep -c '^| [12] ' "$B/quick/figures/precision-seeds.md")" = 2
+  "$(grep -c '^| [12] ' "$T/figures/precision-seeds.md")" = 2
 
 # What settling.awk makes of given rows: differences of 0.001, 0.003, 0.006, of
 # mean 1/300 and variance 19/3 1e-6; t of two degrees of freedom is 4.303

@@ -4,11 +4,11 @@
 # those of the methods and of the contact laws' smoothness, failures are marked.
 . tests/harness.sh
 
-rm -rf "$B/quick/data/precision" "$B"/quick/figures/precision-*
 check 'make precision-scenes QUICK=1' \
-  make -s precision-scenes QUICK=1 B="$B" >"$T/log" 2>&1 || cat "$T/log"
-D=$B/quick/data/precision
-F=$B/quick/figures
+  make -s precision-scenes QUICK=1 B="$B" D="$T/data" F="$T/figures" \
+  >"$T/log" 2>&1 || cat "$T/log"
+D=$T/data/precision
+F=$T/figures
 
 # value SET METHOD ROW COLUMN, rows from 1, negative ones from the end
 value() {

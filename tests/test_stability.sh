@@ -5,7 +5,7 @@
 # be in the data. Run from the root of the repository; B is the directory of the
 # programs.
 . tests/harness.sh
-D=$B/quick/data/stability
+D=$T/data/stability
 
 # in_range NAME FILE PROGRAM: the awk program prints a value and its bounds for
 # rows of FILE, whose columns are c["name"]; there must be some, all in range
@@ -33,7 +33,7 @@ if ! command -v gnuplot > /dev/null; then
     $D/creep.tsv $D/cut.tsv"
 fi
 check 'make QUICK=1 stability' \
-  make -s QUICK=1 B="$B" $targets > /dev/null
+  make -s QUICK=1 B="$B" D="$T/data" F="$T/figures" $targets > /dev/null
 
 # Limits: theory is that of the stepper on the linear test equation, measured on
 # contacts; and what the literature has (Hairer and Wanner, IV.2; Merson from
