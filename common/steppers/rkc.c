@@ -60,6 +60,7 @@ enum { CHUNK = 8192, WORTH_SHARING = 8 * CHUNK };
 static int stage_by_parts(const struct state *s, double t, const double y[],
                           const struct stage *stage, double out[],
                           const gsl_odeiv2_system *sys, double *f) {
+  (void)s; /* without OpenMP */
   const size_t dim = sys->dimension;
   const int status = GSL_ODEIV_FN_EVAL(sys, t, y, f);
   if (status != GSL_SUCCESS)
