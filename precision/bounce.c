@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A sphere dropped from 16 m: time of the first apex after the rebound, and
-   the energy there. For e = 1 against the energy integral, else against two
-   methods at a tight tolerance, which see the contact only: the way there and
-   back is a parabola. */
+   the energy there. The reference is the energy integral for e = 1, else two
+   methods at a tight tolerance, which integrate the contact only: before and
+   after it the path is a parabola. */
 #include <stdlib.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
@@ -11,7 +11,7 @@
 
 static const double height = 16;
 
-/* No run takes as many steps. */
+/* More steps than any run takes. */
 static const size_t most = 5000000;
 
 struct reference {
@@ -72,8 +72,8 @@ struct ascent {
   bool rising;
 };
 
-/* What is left of the contact adds to the way up, so the bound holds. A sphere
-   that is thrown up beyond all measure has no apex worth waiting for. */
+/* The remaining force of the contact adds to the way up, so the bound holds. A
+   sphere that is thrown up extremely far has no apex worth waiting for. */
 static double to_apex(const double y[], const double dydt[], void *params) {
   (void)dydt;
   struct ascent *a = params;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A sphere meets a wall, e = 1, no gravity, from as far away as where the run
-   ends: against sech^2. */
+/* A sphere meets a wall, e = 1, no gravity. The run begins as far from the wall
+   as it ends; the reference is the closed form sech^2. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include "model/closed_forms.h"

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One collision by three laws, to show what the smoothness of the paper's is
-   worth: its exponential repulsion, a linear spring, which begins with a kink
-   at touch, and the law of Walton and Braun (J. Rheol. 30 (1986) 949), whose
-   spring is stiffer while unloading and lets go at an overlap that is left.
-   The springs have the exponential's largest force: k = (kappa v0/2)^2, so
-   that all have the same pace a = kappa v0/2 of the closed form sech^2.
+/* One collision by three laws, to show the value of the smoothness of the
+   paper's law: its exponential repulsion, a linear spring, which begins with a
+   kink at touch, and the law of Walton and Braun (J. Rheol. 30 (1986) 949),
+   whose spring is stiffer while unloading and lets go at an overlap that is
+   left. The springs have the exponential's largest force: k = (kappa v0/2)^2,
+   so that all have the same pace a = kappa v0/2 of the closed form sech^2.
 
-   Where within a step a kink lies is chance, so errors are root mean squares
-   over MEASURE_STARTS runs. */
+   Chance decides where within a step a kink lies, so errors are root mean
+   squares over MEASURE_STARTS runs. */
 #include <stdlib.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
@@ -33,8 +33,8 @@ static double spring(const struct drop *d, double gap, double rate,
   return gap < 0 ? -d->loading * gap : 0;
 }
 
-/* The deepest overlap is a memory that is kept up to date between steps, as
-   programs for such laws do. */
+/* The deepest overlap is a memory that is updated between steps, as programs
+   for such laws do. */
 static double walton_braun(const struct drop *d, double gap, double rate,
                            double slope[2]) {
   (void)rate;

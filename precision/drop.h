@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One sphere above a plane in two unknowns, the gap l and its rate: for scenes
-   that need no more. Not in the paper. */
+/* One sphere above a plane in two unknowns, the gap l and its rate, for scenes
+   that need no more unknowns. Not in the paper. */
 #ifndef DROP_H
 #define DROP_H
 

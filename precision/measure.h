@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the scenes have in common. */
+/* Functions that the scenes share: steps, events, counts, means over runs. */
 #ifndef MEASURE_H
 #define MEASURE_H
 
@@ -26,9 +26,9 @@ const char *measure_event(struct integrator *it,
                                           void *params),
                           void *params, size_t most);
 
-/* Where within a step a kink falls is chance: scenes with one take root mean
-   squares over so many runs, which start at different times and whose fixed
-   steps differ, too, by up to a tenth. */
+/* Chance decides where within a step a kink falls. Scenes with a kink take root
+   mean squares over this number of runs, which start at different times and
+   whose fixed steps differ, too, by up to a tenth. */
 enum { MEASURE_STARTS = 8 };
 
 /* The options of the k-th of these runs. */

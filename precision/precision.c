@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* precision: one scene, one method, a ladder of tolerances or fixed steps; a
-   row a run with its error and its cost. */
+/* precision: one scene, one method, a ladder of tolerances or fixed steps; one
+   row per run with its error and its cost. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -133,14 +133,14 @@ int main(int argc, char **argv) {
        .unit = "s, up to 16 times", .help = "a fixed step to run with",
        .each = add_rung, .context = &steps},
       NUMBER("timed", &timed, 0, OPTION_MANY, "s",
-             "repeat a run for so long; the shortest counts"),
+             "repeat each run for this time; the shortest counts"),
       INTEGRATION_OPTIONS(integrate, travel),
       {0}};
   /* clang-format on */
   const struct program program = {
       .name = "precision",
       .summary = "One scene and method over tolerances (--rung) or fixed steps "
-                 "(--step-rung);\na row a run: error and cost.",
+                 "(--step-rung);\none row per run: error and cost.",
       .usage = "SCENE [OPTION...]",
       .example = "precision collision --method rk8pd --rung 1e-4 --rung 1e-8",
       .options = options};

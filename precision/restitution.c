@@ -26,7 +26,7 @@ static int prepare(const struct precision_case *c, void **out,
   return status;
 }
 
-/* Far: where 1e-16 of the energy is left to come from further away. */
+/* Far: so that 1e-16 of the energy is stored further away. */
 static int run(const struct precision_case *c, const void *reference,
                struct precision_result *r) {
   struct drop d = {.force = drop_contact, .law = c->law, .travel = c->travel};

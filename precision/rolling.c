@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A sphere that slides on the floor until it rolls. Friction is only C^1: at
-   the slip speed vmin its second derivative jumps. What a method makes of that
+   the slip speed vmin its second derivative jumps. The error that this causes
    depends on where within a step it happens, so errors are root mean squares
    over MEASURE_STARTS runs. */
 #include <gsl/gsl_errno.h>
@@ -33,13 +33,13 @@ static int start(const struct precision_case *c, double speed, size_t k,
       (double[]){speed * direction[0], speed * direction[1], 0}, &o, c->travel);
 }
 
-/* What friction takes to go through vmin, shared among the runs, is how much
-   earlier they start. */
+/* The runs start earlier by shares of the time that friction takes to go
+   through vmin. */
 static double earlier(const struct precision_case *c, size_t k) {
   return c->law.vmin / full_rate(c) * (double)k / MEASURE_STARTS;
 }
 
-/* Velocity at the end against 5/7 of the first and what slip is left. */
+/* Error of the final velocity: 5/7 of the first, and the slip that is left. */
 static int run_velocity(const struct precision_case *c, const void *reference,
                         struct precision_result *r) {
   (void)reference;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Scenes of the work-precision charts: each in a file of its own, each with an
-   error that needs no faith. The main program runs a scene with one method over
-   a ladder of tolerances or steps and prints a row a run. */
+/* Scenes of the work-precision charts, each in a file of its own and with an
+   exact or independent reference. The main program runs a scene with one method
+   over a ladder of tolerances or steps and prints one row per run. */
 #ifndef SCENES_H
 #define SCENES_H
 
@@ -10,7 +10,7 @@
 
 enum { PRECISION_ERRORS = 4 };
 
-/* What is asked for. */
+/* One run: the scene and how to integrate it. */
 struct precision_case {
   const struct integrate_options *integrate;
   struct contact_law law;
@@ -27,7 +27,7 @@ struct precision_result {
   size_t evaluations, accepted, rejected;
   double cpu_seconds; /* of the integration; 0: main times the whole run */
   double started;     /* by measure_start */
-  size_t runs;        /* that the numbers are means of; 0 is one */
+  size_t runs;        /* over which the numbers are means; 0 is one */
   /* One word: "ok", or how it failed; "lost" where an error is as large as
      what is computed. */
   const char *status;
@@ -39,9 +39,9 @@ struct precision_scene {
   const char *errors[PRECISION_ERRORS + 1];
   /* Sets the scene's own defaults, before the command line is read. */
   void (*defaults)(struct precision_case *c);
-  /* Computes what the runs are compared with into *reference, which run gets
-     and free() takes, and how far off it may be itself; NULL where there is
-     nothing to prepare. */
+  /* Computes the reference of the runs into *reference, which run gets and
+     free() takes, and its own uncertainty; NULL where there is nothing to
+     prepare. */
   int (*prepare)(const struct precision_case *c, void **reference,
                  double reference_error[]);
   /* One run. GSL_SUCCESS also where the method fails: then status says how;

@@ -3,13 +3,13 @@
    kept: the Toda lattice. The eigenvalues of the symmetric matrix with the
    velocities on its diagonal and
      sqrt(F0/kappa) exp(-kappa l/2)
-   beside it are constant in time (Flaschka, Phys. Rev. B 9 (1974) 1924): an
-   error at any time without a reference.
+   beside it are constant in time (Flaschka, Phys. Rev. B 9 (1974) 1924), so
+   their drift is an error at any time without a reference.
 
    Open, the line flies apart after its collisions. Closed, between two walls,
    it is half of a ring: the walls are bodies that rest for symmetry, their
    other sides have the line's mirror image, and the matrix is the ring's. So it
-   goes on for as long as one likes. */
+   can go on for any time. */
 #include <stdlib.h>
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_errno.h>

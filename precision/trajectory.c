@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Spheres fall into a box, 2 x 2 x 2 of them or the paper's 200, over the time
-   for which two tight runs agree on where they are. What that time is depends
-   on the scene: settling is chaotic, and errors grow until nothing is left to
+   for which two tight runs agree on their positions. That time depends on the
+   scene: settling is chaotic, and errors grow until nothing is left to
    compare. Without friction (--friction 0) it is the basic variant. */
 #include <math.h>
 #include <stdlib.h>

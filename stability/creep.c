@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* creep: a sphere that must not turn on a slope about the friction angle. The
-   limiter (2.8) has no threshold, so friction T is there only while the sphere
-   slips, at s vmin with 3 s^2 - 2 s^3 = T/(phi F); steeper slopes it slides
-   down. */
+/* creep: a sphere that cannot turn, on slopes around the friction angle. The
+   limiter (2.8) has no threshold, so there is a friction T only while the
+   sphere slips, at s vmin with 3 s^2 - 2 s^3 = T/(phi F). On steeper slopes it
+   slides down. */
 #include <math.h>
 #include <stdio.h>
 #include <gsl/gsl_errno.h>

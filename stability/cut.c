@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* cut: a contact ends at the gap lmax, with a jump of F0 exp(-kappa lmax).
-   What floor does that put under the accuracy, and would a smooth taper raise
-   it? A sphere meets a wall, e = 1, no gravity, in two unknowns; the taper is
-   an experiment of this study and not in the law.
+   The study measures the floor that this puts under the error, and whether a
+   smooth taper lowers it. A sphere meets a wall, e = 1, no gravity, in two
+   unknowns; the taper is an experiment of this study and not in the law.
 
    Two errors: the speed it leaves with is the one it came with in any such
    model, which tells of the method alone; its gap in the end is compared with
@@ -21,7 +21,7 @@
 
 static const char *const tapers[] = {"none", "shift", "c1", "c2", NULL};
 
-/* Tapers act over the last so much of lmax. */
+/* The last part of lmax, over which tapers act. */
 static const double tapered = 0.2;
 
 struct wall_contact {

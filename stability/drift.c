@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* drift: energy of an elastic scene without friction, e = 1 and phi = 0, over
    long times; nothing may be gained or lost (closed form 6). A sphere that
-   bounces on the floor, or a closed box of spheres under gravity. With --cost
-   the tolerance, or the step, is searched for that costs so many evaluations a
-   bounce or a second, so that methods can be compared at equal cost. */
+   bounces on the floor, or a closed box of spheres under gravity. --cost
+   searches for the tolerance, or the step, that takes the given number of
+   evaluations per bounce or per second, so that methods can be compared at
+   equal cost. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -80,8 +81,8 @@ static double energy(const struct motion *m) {
   return dynamics_kinetic(m->dynamics, y) + dynamics_potential(m->dynamics, y);
 }
 
-/* Evaluations a unit over the first ten units; positive infinity if they fail
-   or take too many. */
+/* Evaluations per unit of time over the first ten units; positive infinity if
+   the run fails or takes too many. */
 static double cost_of(const struct elastic *e,
                       const struct integrate_options *o, double too_many) {
   struct motion *m = NULL;
@@ -100,7 +101,7 @@ static double cost_of(const struct elastic *e,
   return cost;
 }
 
-/* Bisection in the logarithm of the tolerance. Costs fall with it but for
+/* Bisection in the logarithm of the tolerance. Costs fall with it except for
    noise: rkc's estimate of the spectral radius of undamped contacts, and so its
    stages, differ twofold from one run of the box to the next. So the nearest
    of all tried is taken; whether it is near enough for a chart of decades. */
@@ -152,7 +153,7 @@ int verb_drift(int argc, char **argv) {
       POSITIVE("edge", &e.edge, "m", "of the box"),
       NUMBER("units", &units, 1, 1e9, "bounces, or seconds of the box",
              "how long"),
-      NUMBER("cost", &cost, 0, OPTION_MANY, "a unit; 0: by --tol or --step",
+      NUMBER("cost", &cost, 0, OPTION_MANY, "per unit; 0: by --tol or --step",
              "evaluations aimed at"),
       LAW_OPTIONS(e.law),
       POSITIVE("lmax", &e.law.lmax, "m",

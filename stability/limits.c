@@ -27,8 +27,8 @@
 #include "verbs.h"
 
 /* A perturbation grows when its largest size in the second half of the steps
-   is so many times that in the first: 1e-6 a step in 1000 steps. Or at once
-   when it is a hundredfold. */
+   is this multiple of that in the first half: 1e-6 per step in 1000 steps. It
+   grows at once when it has become a hundredfold. */
 static const double growth = 1.001, runaway = 100;
 
 enum axis { REAL, IMAGINARY };

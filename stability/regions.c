@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* regions: |R(z)| of each method on a grid of the complex plane, R by applying
-   the stepper itself to y' = lambda y as a real system of two. One block a
+   the stepper itself to y' = lambda y as a real system of two. One block per
    method, upper half plane only: R of the conjugate is the conjugate. */
 #include <math.h>
 #include <stdio.h>
@@ -19,8 +19,9 @@ int verb_regions(int argc, char **argv) {
   /* clang-format on */
   const struct program program = {
       .name = "stability regions",
-      .summary = "|R(z)| of each method on a grid, one block a method: re, im, "
-                 "modulus.",
+      .summary =
+          "|R(z)| of each method on a grid, one block per method: re, im, "
+          "modulus.",
       .usage = "[OPTION...]",
       .example = "stability regions > regions.tsv",
       .options = options};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A stepper applied with a fixed step, without any control, and for rkc with a
-   stage number of one's choice. Not in the paper. */
+   given number of stages. Not in the paper. */
 #ifndef STEPPER_H
 #define STEPPER_H
 
@@ -21,8 +21,8 @@ struct stepper {
   double *rate, *rate_out, *error, *scratch; /* dim each, one block */
 };
 
-/* Rows of the state begin with so many positions. GSL_EINVAL for an unknown
-   method or one that takes no fixed step, GSL_ENOMEM. */
+/* Rows of the state begin with this number of positions. GSL_EINVAL for an
+   unknown method or one that takes no fixed step, GSL_ENOMEM. */
 int stepper_alloc(struct stepper *s, struct stepper_kind kind, size_t dim,
                   size_t row, size_t positions);
 void stepper_free(struct stepper *s);

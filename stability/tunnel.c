@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tunnel: a fast sphere comes out of free flight, where the error estimate is
-   zero and the step grows without bound. Does the method see what it meets:
-   another sphere, or a wall?
+   zero and the step grows without bound. The study counts how often the method
+   misses the sphere or wall that is in the way.
 
-   No gravity, e = 1: what comes out must be as fast as what went in. Each
-   row is so many runs that differ in the distance to fly. */
+   No gravity, e = 1: the sphere must leave as fast as it came. Each row is of
+   runs that differ in the distance of flight. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -19,8 +19,8 @@ enum outcome { BOUNCED, MISSED, WRONG, FAILED, OUTCOMES };
 static const char *const outcome_names[] = {"bounced", "missed", "wrong",
                                             "failed"};
 
-/* A bounce counts as right when its speed is so far from the exact one, as a
-   share. */
+/* A bounce counts as right when the relative error of its speed is below
+   this. */
 static const double right = 0.05;
 
 static const double radius = 0.1;
@@ -68,7 +68,7 @@ static int shoot(const struct shot *s, const struct integrate_options *o,
     return status;
   const double end = 3 * s->distance / s->speed;
   bool lost = false;
-  /* beyond so many steps it is stuck */
+  /* after more steps it counts as stuck */
   for (size_t k = 0; k < 100000 && integrate_time(m->integrator) < end && !lost;
        k++)
     lost = integrate_step(m->integrator) != GSL_SUCCESS;
@@ -102,7 +102,7 @@ int verb_tunnel(int argc, char **argv) {
       {.name = "tolerances", .type = OPTION_LIST, .value = &tolerances,
        .least = 1, .most = 8, .unit = "as --control has it", .help = "tried"},
       {.name = "runs", .type = OPTION_SIZE, .value = &runs, .least = 1,
-       .most = 1e6, .help = "a row, at distances from 2 to 3 m"},
+       .most = 1e6, .help = "per row, at distances from 2 to 3 m"},
       LAW_OPTIONS(shot.law),
       POSITIVE("lmax", &shot.law.lmax, "m",
                "gap beyond which contacts are skipped"),

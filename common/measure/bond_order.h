@@ -17,7 +17,7 @@ struct bond_order {
   double qbar4, qbar6, wbar4, wbar6;
 };
 
-/* How ordered a neighbourhood is. The averages of an ideal lattice are
+/* The order of a neighbourhood. The averages of an ideal lattice are
 
                 qbar4   qbar6   wbar4     wbar6
      fcc        0.1909  0.5745  -0.1593  -0.0132
@@ -26,8 +26,9 @@ struct bond_order {
      sc         0.7638  0.3536   0.1593   0.0132
 
    (14 neighbours of bcc; W. Mickel et al., J. Chem. Phys. 138 (2013) 044501,
-   has more). Random beds stay below a qbar6 of 0.35 or so: ordered is what has
-   at least least, and the signs of wbar tell which order it resembles. */
+   has more). Random beds stay below a qbar6 of 0.35 or so. A neighbourhood is
+   ordered if its qbar6 is at least `least`, and the signs of wbar tell which
+   lattice it resembles. */
 enum bond_class { BOND_DISORDERED, BOND_FCC, BOND_HCP, BOND_BCC };
 enum bond_class bond_order_class(const struct bond_order *o, double least);
 

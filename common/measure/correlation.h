@@ -6,11 +6,11 @@
 
 #include <stddef.h>
 
-/* For bins of equal width from 0 to rmax (m): pairs[k], how many pairs of
-   points there are at a distance in [k, k + 1) rmax/bins, and expected[k], how
-   many there would be were each point's partners strewn evenly over the box:
-   half of (n-1)/V times the sum, over the points, of the volume of the bin's
-   shell around each that lies within the box. g = pairs/expected; for
+/* For bins of equal width from 0 to rmax (m): pairs[k], the number of
+   pairs of points at a distance in [k, k + 1) rmax/bins, and expected[k], the
+   number that there would be were each point's partners strewn evenly over the
+   box: half of (n-1)/V times the sum, over the points, of the volume of the
+   bin's shell around each that lies within the box. g = pairs/expected; for
    independent random points its mean is 1 in every bin. x: 3n, all within the
    box. Returns GSL_SUCCESS, GSL_EINVAL for a coordinate that is not finite,
    GSL_ENOMEM. Safe in any thread. */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The contacts of a bed one by one, each with the force that the law gives it,
-   and what follows: coordination, rattlers, fabric, loads on the walls. For
-   measuring; dynamics.h has the fast sums. Safe in any thread, one network at a
-   time. Tested in tests/test_contacts.c. */
+   and quantities that follow: coordination, rattlers, fabric, loads on the
+   walls. For measuring; dynamics.h has the fast sums. Safe in any thread, one
+   network at a time. Tested in tests/test_contacts.c. */
 #ifndef NETWORK_H
 #define NETWORK_H
 
@@ -36,9 +36,9 @@ int network_find(struct network *w, const struct scene *s, const struct bed *b,
                  double reach);
 void network_free(struct network *w);
 
-/* What is a contact? The model's repulsion has no end, so it has to be said:
-   a gap of at most gap (m) or, where force > 0, a normal force of at least
-   force (N). Marks those that count. */
+/* Defines which contacts count, since the model's repulsion has no end: those
+   with a gap of at most gap (m) or, where force > 0, a normal force of at least
+   force (N). Marks them. */
 void network_mark(struct network *w, double gap, double force);
 
 /* Point half-way between the surfaces, on the line of centres (m). */
@@ -52,11 +52,11 @@ void network_degrees(const struct network *w, const bool *without,
 
 /* Spheres with fewer than least contacts that count, walls included, are
    rattlers; so are those that have fewer once the rattlers are taken out, and
-   so on. rattler: one flag a sphere. Returns how many, or SIZE_MAX without
-   memory. */
+   so on. rattler: one flag per sphere. Returns their number, or SIZE_MAX
+   without memory. */
 size_t network_rattlers(const struct network *w, size_t least, bool *rattler);
 
-/* Sum of all forces on each sphere with its weight (N), 3 a sphere; m a. */
+/* Sum of all forces on each sphere, with its weight (N), 3 per sphere; m a. */
 void network_net_force(const struct network *w, const struct scene *s,
                        const struct bed *b, double *force);
 

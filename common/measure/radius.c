@@ -146,7 +146,7 @@ int radius_of_fraction(size_t n, const double *x, const double box[6],
     goto done;
   }
   gsl_function f = {excess, &t};
-  /* all volume at no overlap: the root is not below */
+  /* the volume without any overlap: the root is not below */
   double low = 0, high = cbrt(t.volume / (double)n * 3 / (4 * M_PI));
   for (int k = 0; k < 100 && excess(high, &t) < 0; k++) {
     low = high;

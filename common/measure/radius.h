@@ -2,8 +2,8 @@
 /* The radius of a bed's geometry. In the model F0 and r are one parameter (pair
    forces depend on F0 exp(2 kappa r) only) and spheres at rest overlap, so the
    radius at which a bed is measured or handed on is a decision; not in the
-   paper. All spheres have one radius. x: 3n centres (m); walls are those of a
-   scene and may touch as spheres do. Safe in any thread. Tested in
+   paper. All spheres have the same radius. x: 3n centres (m); walls are those
+   of a scene and may touch as spheres do. Safe in any thread. Tested in
    tests/test_radius.c. */
 #ifndef RADIUS_H
 #define RADIUS_H
@@ -11,7 +11,8 @@
 #include <stdbool.h>
 #include "model/scene.h"
 
-/* Overlaps at a radius, in diameters; a wall's as a pair's. Touching counts. */
+/* Overlaps at a radius, in diameters, of pairs of spheres and of spheres and
+   walls. Touching counts. */
 struct radius_overlaps {
   size_t count;
   double largest, mean; /* 0 without any */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Spheres: who, where, how large, how fast. Rows of three doubles. */
+/* The spheres of a bed: ids, positions, sizes and velocities; vectors are rows
+   of three doubles. */
 #ifndef BED_H
 #define BED_H
 

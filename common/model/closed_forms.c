@@ -28,7 +28,7 @@ static int find_root(double (*f)(double, void *), void *params, double a,
   return status;
 }
 
-/* Where rounding stops the quadrature early its own error tells. */
+/* Where rounding stops the quadrature early, its own error estimate decides. */
 static int integral(double (*f)(double, void *), void *params, double a,
                     double b, double *result, double *error) {
   gsl_function function = {f, params};
@@ -113,7 +113,7 @@ static double fall_low(double s, void *params) {
   return 2 / sqrt(2 * (f->f0 * exp(-f->kappa * f->low) * share - f->gravity));
 }
 
-/* and with l = height - s^2, where nothing of the contact is left at 0 */
+/* and with l = height - s^2, where the contact has vanished at 0 */
 static double fall_high(double s, void *params) {
   const struct fall *f = params;
   const double x = s * s;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is known of the model in closed form or as an integral, for tests and
-   for charts of accuracy; not in the paper unless said otherwise. One sphere of
+/* Solutions of the model in closed form or as an integral, for tests and for
+   charts of accuracy; not in the paper unless said otherwise. One sphere of
    unit mass. Results are good to some 1e-13 of their size unless a function
    gives its own error. GSL_SUCCESS, or the code of the root finding or the
    quadrature that failed, with the results untouched. Safe in any thread.

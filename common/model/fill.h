@@ -17,8 +17,8 @@ struct fill {
 
 /* The paper's start, Fig. 4.2a: layers of a square grid 2.5 radii apart, the
    k-th (k = 1, 2, ...) at height drop + (k - 1/2) 2.5 r, each coordinate moved
-   by jitter r U[0,1). Returns GSL_EINVAL if not one sphere fits the base,
-   GSL_ENOMEM. */
+   by jitter r U[0,1). Returns GSL_EINVAL if the base is too small
+   for one sphere, GSL_ENOMEM. */
 int fill_grid(const struct fill *f, struct bed *b);
 
 #endif

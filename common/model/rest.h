@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* When a bed is at rest: no surface was faster than vmin, the speed below which
-   the model's own friction lets a loaded contact creep, for 0.1 s. What settle
-   --until-rest waits for and analyze rest tells. Not in the paper. Safe in any
-   thread. Tested in tests/test_analyze_structure.sh and tests/test_cli.sh. */
+   the model's own friction lets a loaded contact creep, for 0.1 s. This is
+   the criterion of settle --until-rest and of analyze rest. Not in the paper.
+   Safe in any thread. Tested in tests/test_analyze_structure.sh and
+   tests/test_cli.sh. */
 #ifndef REST_H
 #define REST_H
 

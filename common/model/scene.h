@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a scene has besides its spheres: the variant of the model, the contact
+/* A scene without its spheres: the variant of the model, the contact
    law's parameters, gravity and walls; and one check of it all. */
 #ifndef SCENE_H
 #define SCENE_H
@@ -38,8 +38,9 @@ struct scene {
 /* The paper's Tab. 4.2 with the full model and no walls. */
 struct scene scene_default(void);
 
-/* Which forces and unknowns the scene needs, rather than which it names: with
-   phi = 0 there is no friction, and without friction nothing turns. */
+/* The forces and unknowns that the scene needs, which may be fewer than those
+   of the variant that it names: with phi = 0 there is no friction, and without
+   friction nothing turns. */
 bool scene_has_friction(const struct scene *s);
 bool scene_has_rotation(const struct scene *s);
 
