@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What the test scripts have in common; sourced, from the root of the repository,
-# first thing. B is the directory of the programs, T a scratch one. A script ends
+# Functions that the test scripts share. A script sources this file first, from
+# the root of the repository. B is the directory of the programs, T a scratch one. A script ends
 # with check_done.
 set -u
 export LC_ALL=C.UTF-8 # what gnuplot needs for its labels

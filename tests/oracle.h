@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The right-hand side (2.13)-(2.15) as the paper writes it: every pair, every
-   wall, one formula after the other, no thought of speed. What the optimised
-   kernels are compared with; shares the structs scene and bed with them and no
-   code. Beyond the paper: radii r_i and masses m_i, so gaps d - r_i - r_j,
-   torques with a sphere's own radius, I_i = 2/5 m_i r_i^2. */
+   wall, one formula after the other, without regard to speed. The optimised
+   kernels are compared with it; it shares the structs scene and bed with them
+   and no code. Beyond the paper: radii r_i and masses m_i, so gaps d - r_i -
+   r_j, torques with a sphere's own radius, I_i = 2/5 m_i r_i^2. */
 #ifndef ORACLE_H
 #define ORACLE_H
 
@@ -12,7 +12,7 @@
 #include "model/bed.h"
 #include "model/scene.h"
 
-/* What a contact does to sphere i, and what that follows from. */
+/* The effect of a contact on sphere i, and the quantities it follows from. */
 struct oracle_contact {
   double gap;           /* l, between the surfaces (m) */
   double n[3];          /* unit vector from the other body to the sphere */

@@ -43,10 +43,10 @@ within 'Merson at 0.1, every seed' "$(settled merson 0.1 largest)" 0 1e-4
 within 'rkc takes less than a fifth of the evaluations of Merson' \
   "$(awk -v a="$(settled rkc 5e-4 evaluations)" \
     -v b="$(settled merson 0.1 evaluations)" 'BEGIN { print a / b }')" 0 0.2
-check 'seeds: a row a seed' test \
+check 'seeds: one row per seed' test \
   "$(grep -c '^| [12] ' "$T/figures/precision-seeds.md")" = 2
 
-# What settling.awk makes of given rows: differences of 0.001, 0.003, 0.006, of
+# Results of settling.awk for given rows: differences of 0.001, 0.003, 0.006, of
 # mean 1/300 and variance 19/3 1e-6; t of two degrees of freedom is 4.303
 head='model\tmethod\ttol\tstep\tseed\tstatus\tcpu_seconds\tevaluations\tunion\n'
 mkdir -p "$T/timed"

@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What make asks of the compiler and what it does with what a user sets. Nothing
-# is built here: `make -n` tells, and compilers are scripts that answer.
+# The questions of make to the compiler, and its use of variables that a user
+# sets. Nothing is built here: `make -n` tells, and compilers are scripts that
+# answer.
 . tests/harness.sh
 
 plan() { # ARGUMENT...: what make would do, in a place of its own

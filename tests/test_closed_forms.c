@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The physics: trajectories of the equations (2.13)-(2.15) against what is
-   known of them in closed form, for the paper's method and two others at a
+/* The physics: trajectories of the equations (2.13)-(2.15) against their
+   closed forms, for the paper's method and two others at a
    tight tolerance. lmax is so large that F[lmax] < 1e-60 N, but for the slow
    contacts of soft bodies, where it is as far as they start.
 
@@ -898,7 +898,7 @@ static void test_free_fall(void) {
         CHECK(reach(&w, 1));
         const double t = now(&w), *y = state(&w);
         const size_t row = dynamics_stride(w.motion->dynamics);
-        /* a step of s stages is a sum of so many terms of size 20 */
+        /* a step of s stages is a sum of s terms of size 20 */
         const double tol = ULPS(20) * 4 * (double)(steps(&w) + 1);
         for (size_t i = 0; i < 2; i++)
           for (size_t c = 0; c < 3; c++) {
@@ -939,8 +939,7 @@ static void test_over_floor(void) {
   const double x[] = {0, 0, 0.5}, v[3] = {0};
   struct world w = world_new(1, 0.1);
   struct motion *m = NULL;
-  CHECK(motion_alloc_over_floor(&m, &w.scene, 0.1, x, v, &o, 0) ==
-        GSL_SUCCESS);
+  CHECK(motion_alloc_over_floor(&m, &w.scene, 0.1, x, v, &o, 0) == GSL_SUCCESS);
   CHECK(w.scene.walls_count == 0 && w.scene.walls == NULL);
   CHECK(m && integrate_state(m->integrator)[2] == 0.5);
   struct motion *refused = NULL;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What `analyze export` writes in binary, parsed here by the formats' own
+/* The binary output of `analyze export`, parsed here by the formats' own
    definitions: STL (a closed surface, its volume), VTK's appended data, voxels.
    Runs the program from the directory B, build by default. */
 #define _POSIX_C_SOURCE 200809L

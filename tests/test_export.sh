@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What `analyze export` promises: formats read back by others' readers (where
+# The promises of `analyze export`: formats read back by others' readers (where
 # they are installed) and by our own, frames, file names, refusals. Its binary
 # formats are taken apart in test_export.c. Run from the root of the repository;
 # B is the directory of the programs.
@@ -120,7 +120,7 @@ check "--output: the same" cmp -s "$T/named.csv" "$T/film.csv"
 mkdir "$T/vtk"
 check "--frames all" export_ --format vtp --frames all \
   --output "$T/vtk/bed-%04d.vtp" "$T/film"
-check "--frames all: a file a frame and their list" \
+check "--frames all: one file per frame and their list" \
   [ "$(ls "$T/vtk" | tr '\n' ' ')" = \
   'bed-0000.vtp bed-0001.vtp bed-0002.vtp bed.pvd ' ]
 check "the list has times and names beside it" \

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What others write: tables, LAMMPS dumps, XYZ. The same spheres in every
+/* The formats of others: tables, LAMMPS dumps, XYZ. The same spheres in every
    format are the same frames, bit for bit; what is not a whole, well-formed
    file is refused with the line where it goes wrong; and the small files of
    tests/corpus do no harm to any reader. Run from the repository's root. */

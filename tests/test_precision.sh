@@ -20,12 +20,12 @@ value() {
 # Local errors of at most 1.1 tol in each unknown's unit add up and grow: in a
 # collision that takes t by at most 1 + a t, where a t is 40 here (two unknowns,
 # or six); the others let them grow by less.
-pairs='merson dopri5 rkf45 rkck rk8pd'
+embedded='merson dopri5 rkf45 rkck rk8pd'
 for set in bounce-150:time bounce-150:energy collision:gap collision:velocity \
   restitution:speed toda-6:eigenvalue rolling:velocity transition:time \
   exponential:gap exponential-inelastic:gap spring:gap; do
   error=error_${set#*:} set=${set%:*}
-  for method in $pairs rkc; do
+  for method in $embedded rkc; do
     check "$set, $method: ok" test "$(value $set $method -1 status)" = ok
     within "$set, $method: $error" "$(value $set $method -1 $error)" 0 \
       "$(awk -v n="$(value $set $method -1 accepted)" \
@@ -37,12 +37,12 @@ for set in bounce-150:time bounce-150:energy collision:gap collision:velocity \
   # a multistep method's errors are known in advance only to some factor
   within "$set, msbdf: $error" "$(value $set msbdf -1 $error)" 0 1e-3
 done
-# The law with a memory that is kept up to date between steps: no control sees
-# what a long step does to it.
+# The law with a memory that is updated between steps: no step control sees the
+# effect of a long step on it.
 within 'walton-braun, rk8pd at 1e-7: error' \
   "$(value walton-braun rk8pd -1 error_gap)" 1e-3 1
 
-# By what an error falls as the step is halved: second order, and first where
+# The factor by which an error falls as the step is halved: second order, and first where
 # the contact's force depends on the velocity.
 for set in collision:gap:4 exponential:gap:4 toda-6:eigenvalue:4 \
   bounce-150:time:4 restitution:speed:2 exponential-inelastic:gap:2 \
@@ -81,10 +81,10 @@ orders exponential 5 0.6 dopri5 rkf45 rkck
 orders exponential 8.5 1.5 rk8pd
 # a kink at touch leaves two; its place within a step is chance, which eight
 # runs do not average out
-orders spring 2 0.8 $pairs rkc verlet
-orders walton-braun 2 0.8 $pairs rkc verlet
+orders spring 2 0.8 $embedded rkc verlet
+orders walton-braun 2 0.8 $embedded rkc verlet
 # C^1 leaves three
-orders rolling 3 0.4 $pairs
+orders rolling 3 0.4 $embedded
 orders rolling 2 0.3 rkc
 orders rolling 1 0.1 verlet
 

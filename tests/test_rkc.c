@@ -115,8 +115,8 @@ static const struct problem problems[] = {
     {"circle", 2, circle_f, circle, 0.5, 2}};
 
 /* A problem and, where rate > 0, one unknown more, apart from the others,
-   y' = -rate (y - cos t) - sin t with the solution cos t, which makes the
-   stage number what we like. */
+   y' = -rate (y - cos t) - sin t with the solution cos t, which sets the
+   stage number. */
 struct companion {
   const struct problem *problem;
   double rate;

@@ -72,7 +72,7 @@ inside 'tunnel: with the cap all bounce' "$D/tunnel.tsv" \
   '$3 > 0 && ($1 != "rkc" || $c["tol"] < 0.05) {
      print $c["bounced"] / $c["runs"], 1, 1, $1, $2 }'
 
-# Energy at equal cost, 3000 evaluations a bounce: rounding for rk8pd and
+# Energy at equal cost, 3000 evaluations per bounce: rounding for rk8pd and
 # verlet, which is off by up to (omega h)^2/8 within a contact, omega =
 # kappa v0/2 and h = 3e-4 s, but comes back; proportional to time for the rest.
 inside 'drift: rk8pd and verlet at the apex' "$D/drift-bounce.tsv" \
@@ -92,8 +92,8 @@ inside 'drift: the box, verlet bounded' "$D/drift-box.tsv" \
 inside 'drift: the box, rkc gains a percent' "$D/drift-box.tsv" \
   '$1 == "rkc" { e = $c["error"] } END { print e, 0.01, 1 }'
 
-# Creep: rkc and verlet keep the closed form, the pairs with the paper's control
-# jitter about it at the edge of stability by up to a few tenths of vmin.
+# Creep: rkc and verlet keep the closed form, embedded methods with the paper's
+# control jitter about it at the edge of stability by up to a few tenths of vmin.
 inside 'creep: rkc and verlet' "$D/creep.tsv" \
   '($1 == "rkc" || $1 == "verlet") && $2 < 1 {
      print $c["measured"] / $c["closed"], 0.998, 1.002, $1, $2 }'

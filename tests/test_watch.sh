@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What settle and bounce say of a run that goes wrong, made to go wrong here,
-# and that they say nothing of a good one. Run from the root of the repository;
+# The warnings of settle and bounce about runs that are made to go wrong here,
+# and their silence about good ones. Run from the root of the repository;
 # B is the directory of the programs.
 . tests/harness.sh
 
@@ -26,7 +26,7 @@ silent() {
   [[ ! -e $T/stats ]] || key warnings 'x == 0'
 }
 
-warns() { # COUNT PATTERN...: so many lines, each pattern in just one of them
+warns() { # COUNT PATTERN...: COUNT lines, each pattern in exactly one of them
   local lines=$1
   shift
   check "$lines lines" test "$(wc -l <"$T/err")" = "$lines"
