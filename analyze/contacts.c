@@ -277,38 +277,38 @@ int verb_contacts(int argc, char **argv) {
   /* clang-format off */
   struct option_spec options[] = {
       NUMBER("gap", &set.gap, -OPTION_MANY, OPTION_MANY, "m",
-             "a contact is what is no further apart"),
+             "surfaces no further apart are a contact"),
       NUMBER("force", &set.force, 0, OPTION_MANY,
              "mean weights of a sphere; 0: by --gap",
-             "a contact is what pushes at least so hard"),
+             "surfaces that push at least this hard are a contact"),
       {.name = "least", .type = OPTION_SIZE, .value = &set.least,
        .most = 100, .unit = "0: 4, or 2 with friction",
-       .help = "contacts of a sphere that is no rattler"},
+       .help = "fewest contacts of a sphere that is no rattler"},
       BOX_OPTION(set.box, "spheres by centre and contacts in a box only"),
       {.name = "degrees", .type = OPTION_FLAG, .value = &set.degrees,
-       .help = "a block a frame: spheres by their number of contacts"},
+       .help = "one block per frame: spheres by their number of contacts"},
       {.name = "overlaps", .type = OPTION_FLAG, .value = &set.overlaps,
-       .help = "a block a frame: histogram of the overlaps"},
+       .help = "one block per frame: histogram of the overlaps"},
       NUMBER("bin", &set.bin, 1e-4, 1, "diameters", "width of its bins"),
       {.name = "network", .type = OPTION_FLAG, .value = &set.network,
-       .help = "a block a frame: the contacts with their forces"},
+       .help = "one block per frame: the contacts with their forces"},
       FRAMES_OPTIONS(input),
       {0}};
   /* clang-format on */
   const struct program program = {
       .name = "analyze",
       .summary =
-          "How spheres touch, one row a frame. The model's repulsion has no\n"
-          "end, so what a contact is has to be said: a gap of at most --gap,\n"
-          "or a normal force of at least --force.\n"
+          "Contacts of the spheres, one row per frame. The model's repulsion\n"
+          "has no end, so a contact has to be defined: by a gap of at most\n"
+          "--gap, or by a normal force of at least --force.\n"
           "  t                    time (s)\n"
           "  spheres              spheres that are looked at\n"
           "  pairs wall_contacts  contacts of two spheres, of sphere and wall\n"
           "  z z_spheres          mean contacts of a sphere, with walls and\n"
           "                       without\n"
           "  rattlers             spheres with fewer than --least contacts,\n"
-          "                       walls included, and what has fewer once\n"
-          "                       those are taken out, and so on\n"
+          "                       walls included, and spheres that have\n"
+          "                       fewer once those are taken out, and so on\n"
           "  z_rigid z_rigid_spheres  z of the others among themselves\n"
           "  overlap_mean overlap_max wall_overlap_mean wall_overlap_max\n"
           "                       of all that overlap, in diameters\n"
@@ -320,10 +320,10 @@ int verb_contacts(int argc, char **argv) {
           "                       isotropic, 1 if all point one way\n"
           "--network: t i j wall x y z normal tangential gap nx ny nz: ids\n"
           "(wall 0), or i = j and the wall's number; the point between the\n"
-          "surfaces (m), forces (N), gap (m), unit vector to sphere i. All\n"
-          "that the model sees is what --gap 0.1 (its lmax) lists.\n"
-          "Forces come from the parameters and walls in the bed's header,\n"
-          "settle's defaults and no walls where it has none.",
+          "surfaces (m), forces (N), gap (m), unit vector to sphere i.\n"
+          "--gap 0.1, the default lmax, lists all contacts of the model.\n"
+          "Forces come from the parameters and walls in the bed's header. A\n"
+          "bed without them has settle's defaults and no walls.",
       .usage = "contacts [OPTION...] [FILE]",
       .example = "settle --seed 3 | analyze contacts",
       .options = options};

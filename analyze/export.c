@@ -135,8 +135,9 @@ static struct pattern pattern_of(const char *text) {
   struct pattern p = {.text = text};
   const char *percent = text ? strchr(text, '%') : NULL;
   if (!percent)
-    die(EXIT_USAGE, "--frames all: a file a frame, expected --output with a "
-                    "%%d or %%04d in its name");
+    die(EXIT_USAGE,
+        "--frames all: one file per frame, expected --output with a "
+        "%%d or %%04d in its name");
   const char *at = percent + 1;
   p.head = (size_t)(percent - text);
   p.zeros = *at == '0';
@@ -300,18 +301,18 @@ int verb_export(int argc, char **argv) {
       .summary =
           "Writes a bed for another program.\n"
           "  positions    x y z of the centres, tab-separated, nothing else\n"
-          "  csv          a row of names, a row a sphere, the first column t\n"
+          "  csv          a row of names, one row per sphere, first column t\n"
           "  xyz          extended XYZ: OVITO, ASE\n"
           "  lammps       text dump: OVITO, LAMMPS's read_dump and rerun\n"
           "  lammps-data  data file of atom style sphere\n"
-          "  vtp          VTK PolyData, a vertex a sphere: ParaView\n"
+          "  vtp          VTK PolyData, one vertex per sphere: ParaView\n"
           "  stl          surfaces of the spheres, binary\n"
           "  vti          voxels as VTK ImageData: ParaView\n"
           "  raw          voxels as bare numbers, x fastest, then y, z\n"
-          "A voxel is the solid fraction of its cell: the exact union of the\n"
-          "spheres. Distances are exact outside of the solid; inside they are\n"
-          "negative and, where spheres overlap, too small. Binary numbers are\n"
-          "little-endian.\n"
+          "The value of a voxel is the solid fraction of its cell: the exact\n"
+          "union of the spheres. Distances are exact outside of the solid;\n"
+          "inside they are negative and, where spheres overlap, too small.\n"
+          "Binary numbers are little-endian.\n"
           "csv, xyz and lammps hold all frames, the others one, the last; "
           "with\n"
           "--frames all they need an --output such as bed-%04d.vtp, and vtp\n"

@@ -129,14 +129,14 @@ int verb_fraction(int argc, char **argv) {
       {.name = "box", .type = OPTION_LIST, .value = &box, .least = 6,
        .most = 6, .unit = "m", .help = "x0,x1,y0,y1,z0,z1"},
       {.name = "boxes", .type = OPTION_TEXT, .value = &boxes_file,
-       .unit = "a row each, with its faces",
-       .help = "file of boxes instead, a line x0 x1 y0 y1 z0 z1 each"},
+       .unit = "one row per box, with its faces",
+       .help = "file of boxes instead, lines of x0 x1 y0 y1 z0 z1 in m"},
       {.name = "until", .type = OPTION_DOUBLE, .value = &until,
        .least = -1e12, .most = 1e12, .unit = "m",
        .help = "the box ends at this height instead of z1"},
       {.name = "slab", .type = OPTION_DOUBLE, .value = &slab, .least = 0,
        .most = OPTION_MANY, .unit = "m; 0: whole",
-       .help = "cut the box into slabs of this height, a row each"},
+       .help = "cut the box into slabs of this height, one row per slab"},
       {.name = "void", .type = OPTION_FLAG, .value = &columns.empty,
        .help = "add the void fraction, 1 - union"},
       {.name = "sampled", .type = OPTION_SIZE, .value = &columns.sampled,
@@ -148,9 +148,10 @@ int verb_fraction(int argc, char **argv) {
   const struct program program = {
       .name = "analyze",
       .summary =
-          "Volume fraction of spheres in a box, one row a frame: time (s),\n"
-          "sum of the clipped spheres and their union, each by the box. With\n"
-          "many boxes or slabs, an empty line separates frames.\n" VERBS_HELP,
+          "Share of a box that the spheres fill, one row per frame: time (s),\n"
+          "sum of the volumes of the clipped spheres and volume of their\n"
+          "union, each divided by that of the box. With many boxes or slabs\n"
+          "an empty line separates frames.\n" VERBS_HELP,
       .usage = "[fraction] [OPTION...] [FILE]",
       .example = "settle --model basic --seed 3 | analyze",
       .options = options};

@@ -76,13 +76,13 @@ int verb_gr(int argc, char **argv) {
   const struct program program = {
       .name = "analyze",
       .summary =
-          "Pair correlation of the centres, a block of rows a frame.\n"
+          "Pair correlation of the centres, one block of rows per frame.\n"
           "  t             time (s)\n"
           "  r             middle of the bin (mean diameters)\n"
           "  g             pairs/expected\n"
           "  pairs         pairs in the bin, both centres in the box\n"
-          "  expected      what it would be were the partners of each strewn\n"
-          "                evenly over the box: shares of shells that stick\n"
+          "  expected      pairs if the partners of each were strewn evenly\n"
+          "                over the box: shares of shells that stick\n"
           "                out of it are exact\n"
           "  coordination  mean number of partners up to the bin's end\n"
           "Add pairs and expected of several beds to average their g. A box\n"

@@ -106,18 +106,18 @@ int verb_order(int argc, char **argv) {
              "qbar6 from which a sphere is ordered"),
       BOX_OPTION(set.box, "spheres with their centre in a box"),
       NUMBER("margin", &set.margin, 0, OPTION_MANY, "diameters",
-             "without --box: centres so far within the box they span"),
+             "without --box: centres this far inside the box they span"),
       {.name = "spheres", .type = OPTION_FLAG, .value = &set.spheres,
-       .help = "a block a frame: a row for each sphere"},
+       .help = "one block per frame: one row per sphere"},
       FRAMES_OPTIONS(input),
       {0}};
   /* clang-format on */
   const struct program program = {
       .name = "analyze",
       .summary =
-          "Bond-orientational order, one row a frame: means over spheres.\n"
+          "Bond-orientational order, one row per frame: means over spheres.\n"
           "  t            time (s)\n"
-          "  spheres      spheres that are looked at; those at walls and\n"
+          "  spheres      spheres that are counted; those at walls and\n"
           "               surface, whose neighbourhood is cut, are left out\n"
           "  neighbours   spheres within --cutoff of each\n"
           "  q4 q6        of Steinhardt, Nelson and Ronchetti (1983)\n"
@@ -130,8 +130,8 @@ int verb_order(int argc, char **argv) {
           "0.485;\n"
           "bcc 0.036, 0.511 (14 neighbours); sc 0.764, 0.354. A random bed's\n"
           "spheres have a qbar6 of 0.1 to 0.3. --spheres: t id x y z r\n"
-          "neighbours q4 q6 qbar4 qbar6 wbar4 wbar6 class like, the class\n"
-          "being 0 disordered, 1 fcc, 2 hcp, 3 bcc.",
+          "neighbours q4 q6 qbar4 qbar6 wbar4 wbar6 class like: the class as\n"
+          "a number, 0 disordered, 1 fcc, 2 hcp, 3 bcc, and as its name.",
       .usage = "order [OPTION...] [FILE]",
       .example = "settle --model basic | analyze order",
       .options = options};

@@ -150,8 +150,8 @@ void picture_measure(struct picture *p, const struct bed *b,
   free(value);
 }
 
-/* The viewer's axes, as plots/draw/balls.gp has them: rightwards, upwards, to the
-   viewer. */
+/* The viewer's axes, as plots/draw/balls.gp has them: rightwards, upwards, to
+   the viewer. */
 static void view_axes(const struct picture *p, double axes[3][3]) {
   const double turn = p->view.at[0] * M_PI / 180,
                tilt = p->view.at[1] * M_PI / 180;
@@ -326,7 +326,7 @@ void picture_draw(const struct picture *p, const char *name,
                               script,    data, output, NULL};
   picture_run(p, "gnuplot-nox", argv);
   if (access(output, R_OK) != 0)
-    die(EXIT_IO, "gnuplot: no picture came of it");
+    die(EXIT_IO, "gnuplot: it made no picture");
   free(script);
   free(data);
 }

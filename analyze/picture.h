@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Pictures of beds by gnuplot (plots/draw/bed.gp): what draw and movie share. All
-   exit with one line on an error; the scratch directory goes when the program
-   does. */
+/* Pictures of beds by gnuplot (plots/draw/bed.gp): what draw and movie share.
+   All exit with one line on an error; the scratch directory goes when the
+   program does. */
 #ifndef PICTURE_H
 #define PICTURE_H
 
@@ -27,7 +27,7 @@ extern const char *const picture_colors[];
 /* clang-format off */
 #define PICTURE_OPTIONS(p)                                                     \
   {.name = "color", .type = OPTION_TEXT, .value = &(p).color,                  \
-   .choices = picture_colors, .help = "what the colours show"},                \
+   .choices = picture_colors, .help = "quantity that the colours show"},       \
   {.name = "view", .type = OPTION_LIST, .value = &(p).view, .least = 2,        \
    .most = 2, .unit = "degrees",                                               \
    .help = "turn around the vertical, angle to it"}

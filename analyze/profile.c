@@ -138,7 +138,7 @@ int verb_profile(int argc, char **argv) {
        .help = "cx,cy,R of a cylinder, whose shells are taken from its axis "
                "to R"},
       {.name = "points", .type = OPTION_SIZE, .value = &points, .least = 1,
-       .most = 1e8, .help = "rows a frame, at the middles of equal parts"},
+       .most = 1e8, .help = "rows per frame, at the middles of equal parts"},
       FRAMES_OPTIONS(input),
       {0}};
   /* clang-format on */

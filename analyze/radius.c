@@ -172,11 +172,11 @@ int verb_radius(int argc, char **argv) {
        .unit = "contact-mean, touching or fraction=F",
        .help = "what decides the radius: nominal"},
       {.name = "of", .type = OPTION_TEXT, .value = &of, .choices = measures,
-       .help = "what fraction=F is the fraction of"},
+       .help = "fraction that fraction=F sets"},
       {.name = "box", .type = OPTION_LIST, .value = &box, .least = 6,
        .most = 6, .unit = "m", .help = "x0,x1,y0,y1,z0,z1 of fractions"},
       {.name = "report", .type = OPTION_FLAG, .value = &report,
-       .help = "a table of what each choice does, instead of the bed"},
+       .help = "a table of the effect of each choice, instead of the bed"},
       FRAMES_OPTIONS(input),
       {0}};
   /* clang-format on */

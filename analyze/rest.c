@@ -68,7 +68,7 @@ int verb_rest(int argc, char **argv) {
   const struct program program = {
       .name = "analyze",
       .summary =
-          "How near a bed is to rest, one row a frame.\n"
+          "How near a bed is to rest, one row per frame.\n"
           "  t           time (s)\n"
           "  kinetic     kinetic energy, spin included, per sphere (J)\n"
           "  potential   that of gravity, from the origin, and of contacts,\n"
@@ -79,7 +79,7 @@ int verb_rest(int argc, char **argv) {
           "  union       solid fraction of the box\n"
           "  rate        its change since the last frame by the time (1/s)\n"
           "  at_rest     1: yes, 0: no, nan: too short a time was seen\n"
-          "At rest is what `settle --until-rest` waits for: no surface as\n"
+          "At rest, as for `settle --until-rest`: no surface has been as\n"
           "fast as vmin for 0.1 s. vmin is the speed below which the model's\n"
           "own friction lets a loaded contact creep, so a bed with friction\n"
           "never stops altogether. settle looks at every step, this at the\n"

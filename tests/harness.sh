@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Functions that the test scripts share. A script sources this file first, from
-# the root of the repository. B is the directory of the programs, T a scratch one. A script ends
-# with check_done.
+# the root of the repository. B is the directory of the programs, T a scratch
+# one. A script ends with check_done.
 set -u
 export LC_ALL=C.UTF-8 # what gnuplot needs for its labels
 B=${B:-build}

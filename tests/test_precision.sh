@@ -42,8 +42,8 @@ done
 within 'walton-braun, rk8pd at 1e-7: error' \
   "$(value walton-braun rk8pd -1 error_gap)" 1e-3 1
 
-# The factor by which an error falls as the step is halved: second order, and first where
-# the contact's force depends on the velocity.
+# The factor by which an error falls as the step is halved: second order, and
+# first where the contact's force depends on the velocity.
 for set in collision:gap:4 exponential:gap:4 toda-6:eigenvalue:4 \
   bounce-150:time:4 restitution:speed:2 exponential-inelastic:gap:2 \
   rolling:velocity:2; do
