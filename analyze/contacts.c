@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* contacts: how spheres touch: coordination, rattlers, overlaps, fabric, what
-   floor and walls carry; or the distributions and the network itself. */
+/* contacts: coordination, rattlers, overlaps, fabric, loads on floor and walls;
+   or the distributions, or the force network itself. */
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,8 +12,8 @@
 #include "program/shared_options.h"
 #include "verbs.h"
 
-/* Without friction a sphere is held from all sides by 4 contacts at least;
-   with it 2 can do. */
+/* Without friction it takes at least 4 contacts to hold a sphere from all
+   sides; with friction 2 can suffice. */
 enum { LEAST_SMOOTH = 4, LEAST_ROUGH = 2 };
 
 struct contacts {
@@ -23,7 +23,7 @@ struct contacts {
   bool degrees, overlaps, network;
 };
 
-/* A frame and what is known of it. */
+/* A frame and the quantities that are measured of it. */
 struct measured {
   const struct contacts *set;
   const struct bed *bed;

@@ -35,7 +35,7 @@ static const char *const format_names[] = {
 static const char *const frame_choices[] = {"last", "all", NULL};
 static const char *const type_names[] = {"float64", "float32", NULL};
 
-/* Which options say something about which formats. */
+/* The options that belong to certain formats only. */
 static const struct {
   const char *option, *formats;
 } belongs[] = {{"box", " xyz lammps lammps-data vti raw "},

@@ -32,7 +32,7 @@ static void boxes_add(struct boxes *boxes, const double box[6]) {
   memcpy(boxes->at[boxes->count++], box, 6 * sizeof *box);
 }
 
-/* Six numbers a line; # begins a comment. */
+/* Six numbers per line; # begins a comment. */
 static void read_boxes(struct boxes *boxes, const char *path) {
   const char *name;
   FILE *in = input_open(path, &name);
@@ -84,7 +84,7 @@ static void cut_slabs(struct boxes *boxes, const double box[6], double height) {
   }
 }
 
-/* What stands in a row besides the time. */
+/* The columns of a row besides the time. */
 struct columns {
   bool box, empty; /* the box's faces, the void fraction */
   size_t sampled;

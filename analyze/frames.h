@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What every verb does with its operand: read frames until the end. */
+/* Reading the operand of a verb, frame by frame until the end. */
 #ifndef FRAMES_H
 #define FRAMES_H
 

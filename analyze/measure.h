@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What verbs that measure a frame share. */
+/* Functions that the verbs which measure a frame share. */
 #ifndef MEASURE_H
 #define MEASURE_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Pictures of beds by gnuplot (plots/draw/bed.gp): what draw and movie share.
+/* Pictures of beds by gnuplot (plots/draw/bed.gp), for draw and movie.
    All exit with one line on an error; the scratch directory goes when the
    program does. */
 #ifndef PICTURE_H
@@ -61,7 +61,7 @@ void picture_run(const struct picture *p, const char *package,
    beside the program's directory, or where the program was built. */
 char *picture_script(const char *name);
 
-/* Does a name end so? */
+/* Whether a name has this ending. */
 bool ends_in(const char *name, const char *ending);
 
 /* Copies a finished file to where it is wanted. */

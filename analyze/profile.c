@@ -2,7 +2,7 @@
 /* profile: solid fraction of planes across an axis, or of shells at a distance
    from side walls or from the axis of a cylinder; exact areas, as a sum and as
    a union. Rows are at the middles of equal parts, so that the mean of a column
-   tends to what `fraction` says of the box. */
+   tends to the `fraction` of the box. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -36,7 +36,7 @@ static void check(const struct bed *b, int status) {
 }
 
 /* Adds the plane at `at` across an axis, within the box. discs: room for three
-   numbers a sphere. */
+   numbers per sphere. */
 static void add_plane(struct areas *areas, const struct bed *b, int axis,
                       double at, const double box[6], double *discs) {
   const int p = axis == 0 ? 1 : 0, q = axis == 2 ? 1 : 2;
@@ -74,7 +74,7 @@ static void add_box_shell(struct areas *areas, const struct bed *b,
                 discs);
 }
 
-/* rotated: room for three numbers a sphere. */
+/* rotated: room for three numbers per sphere. */
 static void add_cylinder_shell(struct areas *areas, const struct bed *b,
                                const struct where *w, double radius,
                                double *rotated) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* radius: rewrites a bed with another radius of the geometry, or reports what
-   each choice makes of the fractions and overlaps. */
+/* radius: rewrites a bed with another radius of the geometry, or reports the
+   fractions and overlaps that each choice gives. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -27,7 +27,7 @@ struct settings {
   bool sum;
 };
 
-/* What is measured of a frame at one radius. */
+/* The quantities that are measured of a frame at one radius. */
 struct measured {
   double r, sum, united;
   struct radius_overlaps overlaps;
@@ -106,7 +106,7 @@ static void print_report(const struct settings *s, const struct scene *walls,
   }
 }
 
-/* Rewrites the frame and says what that did. */
+/* Rewrites the frame and reports the effect. */
 static void rewrite(const struct settings *s, const struct frames *f,
                     const struct scene *walls, struct bed *b,
                     struct bed_header *h, double nominal, bool quiet) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Binary STL: each sphere a closed surface of equal facets' number, the
-   geodesic subdivision of an icosahedron. Spheres that overlap are written
-   whole, surfaces that pass through each other; single precision, as STL has
+/* Binary STL: each sphere is a closed surface with the same number of facets,
+   the geodesic subdivision of an icosahedron. Spheres that overlap are written
+   whole, as surfaces that pass through each other; single precision, as STL has
    it. */
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* VTK XML PolyData: a vertex a sphere, with its radius and motion as point
+/* VTK XML PolyData: one vertex per sphere, with its radius and motion as point
    data; raw appended, so that numbers are exact and files small. */
 #include <stdlib.h>
 #include "program/options.h"

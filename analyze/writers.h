@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What export writes: one format a file, write_*.c. Each writes one frame to
-   an open stream and leaves errors in ferror(out). Binary numbers are
+/* The writers of export, one file per format, write_*.c. Each writes one frame
+   to an open stream and leaves errors in ferror(out). Binary numbers are
    little-endian, text has 17 digits. */
 #ifndef WRITERS_H
 #define WRITERS_H
