@@ -14,56 +14,102 @@
 #include "verbs.h"
 #include "writers.h"
 
+#define VOXELS "box cells binary distance type threads"
+
+/* What can be written. */
 static const struct format {
-  const char *name;
+  const char *name, *help;
+  const char *takes; /* options that not every format takes */
   write_function *write;
   bool binary; /* nothing for a terminal */
   bool many;   /* frames in one file */
   bool series; /* ParaView's .pvd lists such files */
-} formats[] = {{"positions", write_positions, false, false, false},
-               {"csv", write_csv, false, true, false},
-               {"xyz", write_xyz, false, true, false},
-               {"lammps", write_lammps, false, true, false},
-               {"lammps-data", write_lammps_data, false, false, false},
-               {"vtp", write_vtp, true, false, true},
-               {"stl", write_stl, true, false, false},
-               {"vti", write_vti, true, false, true},
-               {"raw", write_raw, true, false, false}};
-static const char *const format_names[] = {
-    "positions", "csv", "xyz", "lammps", "lammps-data",
-    "vtp",       "stl", "vti", "raw",    NULL};
+} formats[] = {
+    {.name = "positions",
+     .help = "x y z of the centres, tab-separated, nothing else",
+     .takes = "scale offset",
+     .write = write_positions},
+    {.name = "csv",
+     .help = "a row of names, one row per sphere, the first column t",
+     .takes = "scale offset",
+     .write = write_csv,
+     .many = true},
+    {.name = "xyz",
+     .help = "extended XYZ: OVITO, ASE",
+     .takes = "scale offset box",
+     .write = write_xyz,
+     .many = true},
+    {.name = "lammps",
+     .help = "text dump: OVITO, LAMMPS's read_dump and rerun",
+     .takes = "scale offset box",
+     .write = write_lammps,
+     .many = true},
+    {.name = "lammps-data",
+     .help = "data file of atom style sphere",
+     .takes = "scale offset box",
+     .write = write_lammps_data},
+    {.name = "vtp",
+     .help = "VTK PolyData, one vertex per sphere: ParaView",
+     .takes = "scale offset",
+     .write = write_vtp,
+     .binary = true,
+     .series = true},
+    {.name = "stl",
+     .help = "surfaces of the spheres, binary",
+     .takes = "scale offset facets equal-volume",
+     .write = write_stl,
+     .binary = true},
+    {.name = "vti",
+     .help = "voxels as VTK ImageData: ParaView",
+     .takes = "scale offset " VOXELS,
+     .write = write_vti,
+     .binary = true,
+     .series = true},
+    {.name = "raw",
+     .help = "voxels as bare numbers, x fastest, then y, then z",
+     .takes = "scale offset " VOXELS,
+     .write = write_raw,
+     .binary = true},
+    {.name = "bed",
+     .help = "our own format",
+     .takes = "box",
+     .write = write_bed},
+    {0}};
 static const char *const frame_choices[] = {"last", "all", NULL};
 static const char *const type_names[] = {"float64", "float32", NULL};
-
-/* The options that belong to certain formats only. */
-static const struct {
-  const char *option, *formats;
-} belongs[] = {{"box", " xyz lammps lammps-data vti raw "},
-               {"cells", " vti raw "},
-               {"binary", " vti raw "},
-               {"distance", " vti raw "},
-               {"type", " vti raw "},
-               {"threads", " vti raw "},
-               {"facets", " stl "},
-               {"equal-volume", " stl "}};
 
 /* The command line. */
 struct request {
   const struct format *format;
   const char *output; /* NULL: standard output */
   struct write_options write;
-  bool box_given, all, chosen;
+  struct shape_options shape;
+  bool all, chosen;
   size_t frame; /* the one chosen */
 };
 
-static void check_belonging(struct option_spec *options, const char *format) {
-  char word[32];
-  snprintf(word, sizeof word, " %s ", format);
-  for (size_t i = 0; i < sizeof belongs / sizeof *belongs; i++)
-    if (option_find(options, belongs[i].option)->given &&
-        !strstr(belongs[i].formats, word))
-      die(EXIT_USAGE, "--%s: not for --format %s, only for%s",
-          belongs[i].option, format, belongs[i].formats);
+static bool takes(const struct format *f, const char *option) {
+  const size_t length = strlen(option);
+  for (const char *at = f->takes; (at = strstr(at, option)); at += length)
+    if ((at == f->takes || at[-1] == ' ') && strchr(" ", at[length]))
+      return true;
+  return false;
+}
+
+/* An option that some formats take is for no others. */
+static void check_taken(const struct option_spec *options,
+                        const struct format *format) {
+  for (const struct option_spec *o = options; o->name; o++) {
+    char list[160] = "";
+    for (const struct format *f = formats; f->name; f++)
+      if (takes(f, o->name)) {
+        strcat(list, " ");
+        strcat(list, f->name);
+      }
+    if (o->given && *list && !takes(format, o->name))
+      die(EXIT_USAGE, "--%s: not for --format %s, only for%s", o->name,
+          format->name, list);
+  }
 }
 
 /* Cells from one number or three. */
@@ -83,44 +129,25 @@ static void take_cells(const struct option_list *list, size_t cells[3]) {
         OPTION_MANY);
 }
 
-/* The box that holds the spheres and ends at walls along the axes, where a
-   centre is not beyond them. */
-static void container(const struct bed_header *header, const struct bed *b,
-                      double box[6]) {
-  for (int k = 0; k < 3; k++) {
-    box[2 * k] = b->n ? GSL_POSINF : 0;
-    box[2 * k + 1] = b->n ? GSL_NEGINF : 1;
-    for (size_t i = 0; i < b->n; i++) {
-      box[2 * k] = fmin(box[2 * k], b->x[3 * i + k] - b->r[i]);
-      box[2 * k + 1] = fmax(box[2 * k + 1], b->x[3 * i + k] + b->r[i]);
-    }
-  }
-  bool walled[6];
-  header_walls(header, box, walled);
-  /* programs refuse a box without volume and lose atoms that are outside */
-  for (int k = 0; k < 3; k++) {
-    for (size_t i = 0; i < b->n; i++) {
-      box[2 * k] = fmin(box[2 * k], b->x[3 * i + k]);
-      box[2 * k + 1] = fmax(box[2 * k + 1], b->x[3 * i + k]);
-    }
-    if (!(box[2 * k + 1] > box[2 * k]))
-      box[2 * k + 1] = box[2 * k] + 1;
-  }
-}
-
+/* Writes a frame as s, the shape to be freed. */
 static void write_one(FILE *out, const struct request *q,
                       const struct frames *frames, const struct bed *b,
-                      size_t number, bool first) {
-  struct write_frame f = {.bed = b, .number = number, .first = first};
-  if (q->box_given)
-    memcpy(f.box, q->write.box, sizeof f.box);
-  else
-    container(frames_header(frames), b, f.box);
+                      size_t number, bool first, struct shape *s) {
+  shape_make(s, &q->shape, frames, b);
+  struct write_frame f = {
+      .shape = s, .bed = &s->bed, .number = number, .first = first};
   long least = 1;
   for (size_t i = 0; i < b->n; i++)
     least = GSL_MIN(least, b->id[i]);
   f.id_offset = 1 - least;
   q->format->write(out, &f, &q->write);
+}
+
+/* What was written, once it is: the last of several frames. */
+static void say(const struct request *q, struct shape *s) {
+  if (!q->write.quiet && s->frames)
+    shape_say(s);
+  shape_free(s);
 }
 
 /* Output names with a number: a %d or %04d, and no other %. */
@@ -196,8 +223,10 @@ static void write_series(const struct request *q, struct frames *frames) {
   for (size_t number = 0; frames_next(frames, &bed); number++) {
     char *name = pattern_name(&pattern, number);
     output_open(&out, name);
-    write_one(out.stream, q, frames, &bed, number, true);
+    struct shape shape;
+    write_one(out.stream, q, frames, &bed, number, true, &shape);
     output_commit(&out);
+    say(q, &shape);
     if (list_name)
       fprintf(list.stream, "<DataSet timestep=\"%.17g\" file=\"%s\"/>\n", bed.t,
               base_name(name));
@@ -232,40 +261,46 @@ static size_t read_one(const struct request *q, struct frames *frames,
 }
 
 static void write_stream(FILE *out, const struct request *q,
-                         struct frames *frames) {
+                         struct frames *frames, struct shape *shape) {
   struct bed bed = {0};
   if (q->format->many && q->all) {
-    for (size_t k = 0; frames_next(frames, &bed) && !ferror(out); k++)
-      write_one(out, q, frames, &bed, k, k == 0);
+    for (size_t k = 0; frames_next(frames, &bed) && !ferror(out); k++) {
+      shape_free(shape);
+      write_one(out, q, frames, &bed, k, k == 0, shape);
+    }
   } else {
     const size_t count = read_one(q, frames, &bed);
-    write_one(out, q, frames, &bed, count - 1, true);
+    write_one(out, q, frames, &bed, count - 1, true, shape);
   }
   bed_free(&bed);
 }
 
 static void export(const struct request *q, struct frames *frames) {
+  struct shape shape = {0};
   if (q->all && !q->format->many) {
     write_series(q, frames);
   } else if (q->output) {
     struct output_file out;
     output_open(&out, q->output);
-    write_stream(out.stream, q, frames);
+    write_stream(out.stream, q, frames, &shape);
     output_commit(&out);
   } else {
-    write_stream(stdout, q, frames);
+    write_stream(stdout, q, frames, &shape);
+    finish_output();
   }
+  say(q, &shape);
 }
 
 int verb_export(int argc, char **argv) {
   struct frames_options input = {.may_be_empty = true};
-  struct request q = {.write = {.facets = 320, .threads = 1}};
-  struct option_list box = {6, {0, 1, 0, 1, 0, 1}}, cells = {1, {100}};
+  struct request q = {.write = {.facets = 320, .threads = 1},
+                      .shape = {.scale = 1}};
+  struct option_list box = {0}, cells = {1, {100}}, offset = {3, {0, 0, 0}};
   const char *format = NULL, *which = NULL, *type = "float64";
   /* clang-format off */
   struct option_spec options[] = {
       {.name = "format", .type = OPTION_TEXT, .value = &format,
-       .choices = format_names, .help = "what to write; needed"},
+       OPTION_TABLE(formats), .help = "what to write; needed"},
       {.name = "output", .type = OPTION_TEXT, .value = &q.output,
        .unit = "else standard output",
        .help = "file that appears once it is complete"},
@@ -274,9 +309,15 @@ int verb_export(int argc, char **argv) {
        .help = "frames to write"},
       {.name = "frame", .type = OPTION_SIZE, .value = &q.frame,
        .most = OPTION_MANY, .unit = "from 0", .help = "one frame"},
+      {.name = "scale", .type = OPTION_DOUBLE, .value = &q.shape.scale,
+       .least = DBL_MIN, .most = OPTION_MANY,
+       .help = "lengths and speeds are multiplied by it, 1000: mm"},
+      {.name = "offset", .type = OPTION_LIST, .value = &offset, .least = 3,
+       .most = 3, .unit = "x,y,z, in the units written",
+       .help = "added to places"},
       {.name = "box", .type = OPTION_LIST, .value = &box, .least = 6,
-       .most = 6, .unit = "m, x0,x1,y0,y1,z0,z1",
-       .help = "of voxels; of xyz and lammps, else by walls and spheres"},
+       .most = 6, .unit = "x0,x1,y0,y1,z0,z1 in m, else the base's cube",
+       .help = "of voxels and fractions; of xyz and lammps, else by walls"},
       {.name = "cells", .type = OPTION_LIST, .value = &cells, .least = 1,
        .most = 3, .unit = "N or NX,NY,NZ", .help = "voxels of vti and raw"},
       {.name = "binary", .type = OPTION_FLAG, .value = &q.write.binary,
@@ -299,16 +340,8 @@ int verb_export(int argc, char **argv) {
   const struct program program = {
       .name = "analyze",
       .summary =
-          "Writes a bed for another program.\n"
-          "  positions    x y z of the centres, tab-separated, nothing else\n"
-          "  csv          a row of names, one row per sphere, first column t\n"
-          "  xyz          extended XYZ: OVITO, ASE\n"
-          "  lammps       text dump: OVITO, LAMMPS's read_dump and rerun\n"
-          "  lammps-data  data file of atom style sphere\n"
-          "  vtp          VTK PolyData, one vertex per sphere: ParaView\n"
-          "  stl          surfaces of the spheres, binary\n"
-          "  vti          voxels as VTK ImageData: ParaView\n"
-          "  raw          voxels as bare numbers, x fastest, then y, z\n"
+          "Writes a bed for another program, and says on standard error "
+          "what\nthe exact solid fraction of it is.\n"
           "The value of a voxel is the solid fraction of its cell: the exact\n"
           "union of the spheres. Distances are exact outside of the solid;\n"
           "inside they are negative and, where spheres overlap, too small.\n"
@@ -324,11 +357,9 @@ int verb_export(int argc, char **argv) {
   signal(SIGXFSZ, SIG_IGN); /* a file too large is an error of its write */
   if (!format)
     die(EXIT_USAGE, "--format: expected what to write; see --help");
-  for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
-    if (!strcmp(formats[i].name, format))
-      q.format = &formats[i];
-  check_belonging(options, format);
-  q.box_given = option_find(options, "box")->given;
+  for (q.format = formats; strcmp(q.format->name, format);)
+    q.format++;
+  check_taken(options, q.format);
   q.chosen = option_find(options, "frame")->given;
   if (q.chosen && which)
     die(EXIT_USAGE, "--frame and --frames: expected one of them");
@@ -340,7 +371,9 @@ int verb_export(int argc, char **argv) {
   q.write.single = !strcmp(type, "float32");
   q.write.quiet = input.quiet;
   box_check(&box);
-  memcpy(q.write.box, box.at, sizeof q.write.box);
+  q.shape.box_given = box.count;
+  memcpy(q.shape.box, box.at, sizeof q.shape.box);
+  memcpy(q.shape.offset, offset.at, sizeof q.shape.offset);
   take_cells(&cells, q.write.cells);
   q.write.threads = system_threads(q.write.threads);
   if (q.format->binary && !q.output && isatty(STDOUT_FILENO))
@@ -350,6 +383,5 @@ int verb_export(int argc, char **argv) {
   frames_open(&frames, &input, argc, argv, operand);
   export(&q, &frames);
   frames_close(&frames);
-  finish_output();
   return EXIT_DONE;
 }

@@ -39,6 +39,25 @@ const struct bed_header *frames_header(const struct frames *f) {
   return bed_reader_header(f->reader);
 }
 
+struct bed_header frames_copy_header(const struct frames *f) {
+  const struct bed_header *from = frames_header(f);
+  struct bed_header h = {0};
+  int status = GSL_SUCCESS;
+  if (!bed_header_get(from, "format"))
+    status = bed_header_add(&h, "format", "bed-1");
+  for (size_t k = 0; k < from->count && status == GSL_SUCCESS; k++)
+    status = bed_header_add(&h, from->at[k].name, from->at[k].value);
+  if (status != GSL_SUCCESS)
+    die(EXIT_IO, "out of memory");
+  return h;
+}
+
+const char *frames_status(const struct frames *f) {
+  const struct bed_header *h = frames_header(f);
+  const char *status = bed_header_get(h, "status");
+  return status ? status : bed_header_get(h, "format") ? "cut" : "ok";
+}
+
 void frames_close(struct frames *f) {
   bed_reader_close(f->reader);
   if (f->in != stdin)

@@ -45,6 +45,13 @@ bool frames_next(struct frames *f, struct bed *b);
    a format that has no scene. Valid until the next frame is read. */
 const struct bed_header *frames_header(const struct frames *f);
 
+/* A copy of the keys, which a bed of any format gets; exits without memory. */
+struct bed_header frames_copy_header(const struct frames *f);
+
+/* How the input ended, for a bed made from it: what was taken as it is with
+   --allow-partial stays marked. */
+const char *frames_status(const struct frames *f);
+
 void frames_close(struct frames *f);
 
 #endif

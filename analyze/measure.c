@@ -26,12 +26,16 @@ void frame_refuse(const struct frames *f, const struct bed *b,
    cube: six digits and fewer. */
 static const double smallest_box = 1e-9;
 
-void frame_check_box(const struct frames *f, const struct bed *b,
-                     const double box[6]) {
+bool frame_box_resolved(const struct bed *b, const double box[6]) {
   double largest = 0;
   for (size_t i = 0; i < b->n; i++)
     largest = GSL_MAX(largest, b->r[i]);
-  if (box_volume(box) < smallest_box * gsl_pow_3(largest))
+  return box_volume(box) >= smallest_box * gsl_pow_3(largest);
+}
+
+void frame_check_box(const struct frames *f, const struct bed *b,
+                     const double box[6]) {
+  if (!frame_box_resolved(b, box))
     frame_refuse(f, b, "a box too small beside a sphere for its volume");
 }
 
@@ -60,6 +64,17 @@ void header_walls(const struct bed_header *h, double box[6], bool walled[6]) {
         walled[face] = true;
       }
   }
+}
+
+void frame_base_box(const struct bed_header *h, double box[6]) {
+  static const double unit[6] = {0, 1, 0, 1, 0, 1};
+  double walls[6] = {0};
+  bool walled[6];
+  header_walls(h, walls, walled);
+  walls[5] = walls[4] + GSL_MIN(walls[1] - walls[0], walls[3] - walls[2]);
+  const bool base =
+      walled[0] && walled[1] && walled[2] && walled[3] && walled[4];
+  memcpy(box, base && box_valid(walls) ? walls : unit, sizeof unit);
 }
 
 void frame_warn_rewritten(const struct frames *f) {

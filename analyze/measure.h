@@ -32,12 +32,21 @@ void frame_warn_rewritten(const struct frames *f);
    six numbers is no wall. */
 void header_walls(const struct bed_header *h, double box[6], bool walled[6]);
 
+/* The bottom cube of the base that the header's walls enclose: on the floor,
+   between side walls along x and y, as high as the shorter of the two is wide.
+   The unit cube where there are not all of them. */
+void frame_base_box(const struct bed_header *h, double box[6]);
+
 /* Exits with EXIT_INPUT and one line: the input, the frame's time and why it
    cannot be measured. */
 _Noreturn void frame_refuse(const struct frames *f, const struct bed *b,
                             const char *why);
 
-/* Exits likewise if the box is so small beside a sphere that no digits of the
+/* Is the box so large beside a sphere that digits of a clipped volume are
+   right? */
+bool frame_box_resolved(const struct bed *b, const double box[6]);
+
+/* Exits likewise if it is so small beside a sphere that no digits of the
    clipped volume would be right. */
 void frame_check_box(const struct frames *f, const struct bed *b,
                      const double box[6]);

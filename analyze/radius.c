@@ -129,19 +129,6 @@ static void rewrite(const struct settings *s, const struct frames *f,
        m.overlaps.largest);
 }
 
-/* A copy of the keys, which a bed of any format gets. */
-static struct bed_header copy_header(const struct bed_header *from) {
-  struct bed_header h = {0};
-  int status = GSL_SUCCESS;
-  if (!bed_header_get(from, "format"))
-    status = bed_header_add(&h, "format", "bed-1");
-  for (size_t k = 0; k < from->count && status == GSL_SUCCESS; k++)
-    status = bed_header_add(&h, from->at[k].name, from->at[k].value);
-  if (status != GSL_SUCCESS)
-    die(EXIT_IO, "out of memory");
-  return h;
-}
-
 /* The radius that the dynamics had, all spheres of one. */
 static double nominal_radius(const struct frames *f, const struct bed *b) {
   for (size_t i = 1; i < b->n; i++)
@@ -207,7 +194,7 @@ int verb_radius(int argc, char **argv) {
   struct bed bed = {0};
   frames_open(&frames, &input, argc, argv, operand);
   for (bool first = true; frames_next(&frames, &bed); first = false) {
-    struct bed_header header = copy_header(frames_header(&frames));
+    struct bed_header header = frames_copy_header(&frames);
     struct scene walls = frame_scene(&frames, &bed);
     const double nominal = nominal_radius(&frames, &bed);
     frame_check_box(&frames, &bed, s.box);
@@ -227,14 +214,8 @@ int verb_radius(int argc, char **argv) {
     scene_free(&walls);
     bed_header_free(&header);
   }
-  if (!report) {
-    const struct bed_header *h = frames_header(&frames);
-    const char *status = bed_header_get(h, "status");
-    /* what was taken as it is with --allow-partial stays marked */
-    bed_write_status(stdout, status                        ? status
-                             : bed_header_get(h, "format") ? "cut"
-                                                           : "ok");
-  }
+  if (!report)
+    bed_write_status(stdout, frames_status(&frames));
   frames_close(&frames);
   finish_output();
   return EXIT_DONE;

@@ -14,7 +14,8 @@ void write_lammps(FILE *out, const struct write_frame *f,
           "ITEM: BOX BOUNDS ff ff ff\n",
           b->t, f->number, b->n);
   for (int k = 0; k < 3; k++)
-    fprintf(out, "%.17g %.17g\n", f->box[2 * k], f->box[2 * k + 1]);
+    fprintf(out, "%.17g %.17g\n", f->shape->lattice[2 * k],
+            f->shape->lattice[2 * k + 1]);
   fprintf(out, "ITEM: ATOMS id type x y z vx vy vz radius mass omegax omegay "
                "omegaz\n");
   for (size_t i = 0; i < b->n; i++) {
@@ -43,8 +44,8 @@ void write_lammps_data(FILE *out, const struct write_frame *f,
           "%zu atoms\n1 atom types\n\n",
           b->t, b->n);
   for (int k = 0; k < 3; k++)
-    fprintf(out, "%.17g %.17g %clo %chi\n", f->box[2 * k], f->box[2 * k + 1],
-            axes[k], axes[k]);
+    fprintf(out, "%.17g %.17g %clo %chi\n", f->shape->lattice[2 * k],
+            f->shape->lattice[2 * k + 1], axes[k], axes[k]);
   fprintf(out, "\nAtoms # sphere\n\n");
   for (size_t i = 0; i < b->n; i++)
     fprintf(out, "%ld 1 %.17g %.17g %.17g %.17g %.17g\n",

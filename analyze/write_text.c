@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Bare positions, and a table with a row of names and a column of times. */
+/* Our own format, bare positions, and a table with a row of names and a column
+ * of times. */
 #include "writers.h"
 
 void write_positions(FILE *out, const struct write_frame *f,
@@ -25,4 +26,13 @@ void write_csv(FILE *out, const struct write_frame *f,
         b->t, b->id[i], x[0], x[1], x[2], b->r[i], b->m[i], v[0], v[1], v[2],
         w[0], w[1], w[2]);
   }
+}
+
+void write_bed(FILE *out, const struct write_frame *f,
+               const struct write_options *o) {
+  (void)o;
+  struct bed_header header = frames_copy_header(f->shape->frames);
+  bed_write_frame(out, &header, f->bed, true);
+  bed_write_status(out, frames_status(f->shape->frames));
+  bed_header_free(&header);
 }

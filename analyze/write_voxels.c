@@ -44,8 +44,9 @@ static void narrow(const struct write_options *o, double *value, size_t count) {
       ((float *)value)[i] = (float)value[i];
 }
 
-static void write_cells(FILE *out, const struct bed *b,
+static void write_cells(FILE *out, const struct write_frame *f,
                         const struct write_options *o) {
+  const struct bed *b = f->bed;
   const enum voxels_value what = o->binary     ? VOXELS_MIDPOINT
                                  : o->distance ? VOXELS_DISTANCE
                                                : VOXELS_FRACTION;
@@ -54,8 +55,9 @@ static void write_cells(FILE *out, const struct bed *b,
   struct voxels *v = NULL;
   double *value =
       nx > SIZE_MAX / rows ? NULL : calloc(nx * rows, sizeof *value);
-  int status =
-      value ? voxels_open(&v, b->n, b->x, b->r, o->box, o->cells) : GSL_ENOMEM;
+  int status = value
+                   ? voxels_open(&v, b->n, b->x, b->r, f->shape->box, o->cells)
+                   : GSL_ENOMEM;
   struct progress progress = {.show = !o->quiet && isatty(STDERR_FILENO),
                               .start = time(NULL)};
   progress.shown = progress.start;
@@ -81,11 +83,12 @@ static void write_cells(FILE *out, const struct bed *b,
 
 void write_raw(FILE *out, const struct write_frame *f,
                const struct write_options *o) {
-  write_cells(out, f->bed, o);
+  write_cells(out, f, o);
 }
 
 void write_vti(FILE *out, const struct write_frame *f,
                const struct write_options *o) {
+  const double *box = f->shape->box;
   const uint64_t count = (uint64_t)o->cells[0] * o->cells[1] * o->cells[2];
   const uint64_t bytes = count * number_size(o);
   const struct vtk_array array = {.name = o->binary     ? "solid"
@@ -104,16 +107,16 @@ void write_vti(FILE *out, const struct write_frame *f,
   snprintf(attributes, sizeof attributes,
            " Whole%s Origin=\"%.17g %.17g %.17g\" "
            "Spacing=\"%.17g %.17g %.17g\"",
-           extent, o->box[0], o->box[2], o->box[4],
-           (o->box[1] - o->box[0]) / (double)o->cells[0],
-           (o->box[3] - o->box[2]) / (double)o->cells[1],
-           (o->box[5] - o->box[4]) / (double)o->cells[2]);
+           extent, box[0], box[2], box[4],
+           (box[1] - box[0]) / (double)o->cells[0],
+           (box[3] - box[2]) / (double)o->cells[1],
+           (box[5] - box[4]) / (double)o->cells[2]);
   write_vtk_start(out, "ImageData", attributes, f->bed->t);
   fprintf(out, "<Piece %s>\n<CellData Scalars=\"%s\">\n", extent, array.name);
   write_vtk_element(out, &array, &offset);
   fprintf(out, "</CellData>\n</Piece>\n</ImageData>\n"
                "<AppendedData encoding=\"raw\">\n_");
   write_little_endian(out, &bytes, sizeof bytes, 1);
-  write_cells(out, f->bed, o);
+  write_cells(out, f, o);
   fprintf(out, "\n</AppendedData>\n</VTKFile>\n");
 }

@@ -6,7 +6,7 @@ void write_xyz(FILE *out, const struct write_frame *f,
                const struct write_options *o) {
   (void)o;
   const struct bed *b = f->bed;
-  const double *box = f->box;
+  const double *box = f->shape->lattice;
   fprintf(out,
           "%zu\nLattice=\"%.17g 0 0 0 %.17g 0 0 0 %.17g\" "
           "Origin=\"%.17g %.17g %.17g\" pbc=\"F F F\" "

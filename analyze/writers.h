@@ -8,27 +8,26 @@
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
-#include "model/bed.h"
+#include "shape.h"
 
 struct write_options {
-  double box[6];   /* of the voxels (m) */
   size_t cells[3]; /* voxels along x, y, z */
   bool binary, distance, single, equal_volume, quiet;
   size_t facets, threads;
 };
 
 struct write_frame {
-  const struct bed *bed;
-  size_t number;  /* of the frame in its input, from 0 */
-  bool first;     /* in its file */
-  double box[6];  /* the container that formats with one state (m) */
-  long id_offset; /* for formats whose numbers begin at 1 */
+  struct shape *shape;
+  const struct bed *bed; /* the shape's */
+  size_t number;         /* of the frame in its input, from 0 */
+  bool first;            /* in its file */
+  long id_offset;        /* for formats whose numbers begin at 1 */
 };
 
 typedef void write_function(FILE *out, const struct write_frame *f,
                             const struct write_options *o);
 
-write_function write_positions, write_csv, write_xyz, write_lammps,
+write_function write_bed, write_positions, write_csv, write_xyz, write_lammps,
     write_lammps_data, write_vtp, write_stl, write_vti, write_raw;
 
 /* count numbers of size bytes each, little-endian. */

@@ -10,7 +10,7 @@ export OMP_NUM_THREADS=1
 python=/usr/bin/python3 # Debian's, which has Debian's packages
 
 export_() { # ARGUMENT...
-  timeout 60 "$B/analyze" export "$@" </dev/null
+  timeout 60 "$B/analyze" export --quiet "$@" </dev/null
 }
 
 refuse() { # NAME STATUS PATTERN ARGUMENT...: one line, and no result
@@ -73,7 +73,7 @@ export_ --format positions --frame 1 "$T/film" >"$T/p"
 columns 1 x y z >"$T/want"
 check "--frame 1 is the second" same_numbers "$T/p" "$T/want"
 check "from a pipe" cmp -s "$T/p" \
-  <("$B/analyze" export --format positions --frame 1 <"$T/film")
+  <("$B/analyze" export --quiet --format positions --frame 1 <"$T/film")
 
 export_ --format csv "$T/film" >"$T/film.csv"
 check "csv: one row of names, all frames" [ "$(grep -n t,id "$T/film.csv")" = \

@@ -2,6 +2,7 @@
 #include "model/bed.h"
 
 #include <stdlib.h>
+#include <string.h>
 #include <gsl/gsl_errno.h>
 
 int bed_alloc(struct bed *b, size_t n) {
@@ -32,4 +33,18 @@ void bed_free(struct bed *b) {
   free(b->r);
   free(b->m);
   *b = (struct bed){0};
+}
+
+int bed_copy(struct bed *to, const struct bed *from) {
+  const size_t n = from->n;
+  if (bed_alloc(to, n) != GSL_SUCCESS)
+    return GSL_ENOMEM;
+  to->t = from->t;
+  memcpy(to->id, from->id, n * sizeof *to->id);
+  memcpy(to->x, from->x, 3 * n * sizeof *to->x);
+  memcpy(to->v, from->v, 3 * n * sizeof *to->v);
+  memcpy(to->w, from->w, 3 * n * sizeof *to->w);
+  memcpy(to->r, from->r, n * sizeof *to->r);
+  memcpy(to->m, from->m, n * sizeof *to->m);
+  return GSL_SUCCESS;
 }

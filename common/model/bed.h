@@ -21,4 +21,7 @@ struct bed {
 int bed_alloc(struct bed *b, size_t n);
 void bed_free(struct bed *b);
 
+/* The same again, in memory of its own. GSL_ENOMEM. */
+int bed_copy(struct bed *to, const struct bed *from);
+
 #endif
