@@ -189,6 +189,60 @@ static void test_clouds(gsl_rng *rng) {
   neighbors_free(&nb); /* and once more */
 }
 
+/* --- sizes of all kinds
+ * ------------------------------------------------------*/
+
+enum mixture {
+  DECADES, /* even over six decades */
+  GIANT,   /* one a thousand times larger, in the middle of the list */
+  CORNER,  /* half of them a thousand times smaller, all in one corner */
+  POINTS,  /* half of them without a radius */
+  CLASSES, /* powers of two, on the borders between classes */
+  MIXTURES
+};
+static const char *const mixture_names[MIXTURES] = {
+    "decades", "giant", "corner", "points", "classes"};
+
+/* As dense as a bed would be, if the spheres did not overlap. */
+static struct cloud mixed_cloud(gsl_rng *rng, enum mixture mixture, size_t n) {
+  struct cloud c = new_cloud(n, 3);
+  double volume = 0;
+  for (size_t i = 0; i < n; i++) {
+    const bool odd = i % 2;
+    c.r[i] = mixture == DECADES  ? pow(10, uniform(rng, -5, 1))
+             : mixture == GIANT  ? (i == n / 2 ? 100 : 0.1)
+             : mixture == CORNER ? (odd ? 1e-4 : 0.1)
+             : mixture == POINTS
+                 ? (odd ? 0 : 0.1)
+                 : ldexp(0.1, -(int)gsl_rng_uniform_int(rng, 8));
+    volume += mixture == GIANT && i == n / 2 ? 0 : 8 * gsl_pow_3(c.r[i]);
+  }
+  const double side = cbrt(volume);
+  const double corner = 2e-4 * cbrt((double)n / 2);
+  for (size_t i = 0; i < n; i++)
+    for (size_t k = 0; k < 3; k++)
+      c.x[3 * i + k] =
+          uniform(rng, 0, mixture == CORNER && i % 2 ? corner : side);
+  return c;
+}
+
+static void test_mixtures(gsl_rng *rng) {
+  static const double reaches[] = {0, 0.03, 1e-4, -0.05, 1};
+  static const size_t sizes[] = {300, 2, 1, 90, 700};
+  struct neighbors nb = {0};
+  size_t pairs = 0;
+  for (unsigned long seed = 0; seed < MIXTURES * 5 * 5; seed++) {
+    gsl_rng_set(rng, seed);
+    struct cloud c =
+        mixed_cloud(rng, seed % MIXTURES, sizes[seed / MIXTURES % 5]);
+    search(&nb, &c, reaches[seed / 25], mixture_names[seed % MIXTURES], seed);
+    pairs += nb.count;
+    free_cloud(&c);
+  }
+  CHECK(pairs > 10000);
+  neighbors_free(&nb);
+}
+
 /* By hand: what touches, at most reach included. All numbers are exact. */
 static void test_exact(void) {
   double x[] = {0, 0, 0, 3, 0, 0, 0, 4, 0, 0, 0, -8}, r[] = {1, 2, 1, 3};
@@ -243,7 +297,7 @@ static void test_flung_cost(gsl_rng *rng) {
   struct neighbors nb = {0};
   seconds(&c, &nb, 0.1);
   const double usual = seconds(&c, &nb, 0.1);
-  const size_t pairs = nb.count;
+  const size_t pairs = nb.count, tested = nb.tested;
   /* 1e12 along one axis; 1e12 along each; as far as doubles go */
   static const double places[3][3] = {
       {0, 0, 1e12}, {1e12, -1e12, 1e12}, {-1e300, 0, 0}};
@@ -253,14 +307,58 @@ static void test_flung_cost(gsl_rng *rng) {
     printf("%d spheres: %.4f s; with one at (%g, %g, %g): %.4f s\n", N, usual,
            places[p][0], places[p][1], places[p][2], time);
     CHECK(nb.count > pairs - 100 && nb.count < pairs);
-    CHECK(nb.grid_size < 100 * N);
+    CHECK(nb.scratch_size < 100 * N);
     CHECK(time < 20 * usual + 0.01);
+    /* two layers of 2 % on either side share the cells at the border */
+    CHECK(nb.tested < 2 * tested);
     for (size_t q = 0; q < nb.count; q++)
       if (nb.i[q] == 777 || nb.j[q] == 777)
         CHECK(!"a far sphere has no partner");
   }
   neighbors_free(&nb);
   free_cloud(&c);
+}
+
+/* What it looks at besides the pairs that it finds stays in proportion to the
+   spheres, whatever their sizes: a count, so that no clock decides. Of equal
+   spheres in a bed some 27 are looked at each; a search in cells as wide as the
+   largest sphere would look at thousands. Sparse spheres may have no more cells
+   than spheres. */
+static void test_mixed_cost(gsl_rng *rng) {
+  enum { N = 20000 };
+  struct neighbors nb = {0};
+  for (unsigned long m = 0; m < MIXTURES; m++) {
+    gsl_rng_set(rng, m);
+    struct cloud c = mixed_cloud(rng, m, N);
+    const double time = seconds(&c, &nb, 0);
+    printf("%d spheres, %s: %zu pairs of %zu looked at, %.4f s\n", N,
+           mixture_names[m], nb.count, nb.tested, time);
+    CHECK(nb.tested < 400 * (size_t)N);
+    CHECK(nb.scratch_size < 100 * N);
+    free_cloud(&c);
+  }
+  gsl_rng_set(rng, 7);
+  struct cloud c = random_cloud(rng, CUBE, N, 3, true, 0);
+  seconds(&c, &nb, 0);
+  CHECK(nb.tested < 400 * (size_t)N);
+  CHECK(nb.scratch_size < 100 * N);
+  /* far apart, half of them much farther: a grid over all would be one cell */
+  for (size_t i = 0; i < N / 50; i++)
+    c.x[i * c.stride] = 1e9 * (double)i;
+  seconds(&c, &nb, 0);
+  CHECK(nb.tested < 400 * (size_t)N);
+  CHECK(nb.scratch_size < 100 * N);
+  free_cloud(&c);
+  /* points: only what is in one place touches, or nothing */
+  c = random_cloud(rng, CUBE, N, 0.1, true, 0);
+  for (size_t i = 0; i < N; i++)
+    c.r[i] = 0;
+  for (int negative = 0; negative < 2; negative++) {
+    CHECK(neighbors_find(&nb, N, c.x, c.stride, c.r, -negative) == GSL_SUCCESS);
+    CHECK(nb.count == 0 && nb.tested < 400 * (size_t)N);
+  }
+  free_cloud(&c);
+  neighbors_free(&nb);
 }
 
 /* --- errors ----------------------------------------------------------------*/
@@ -310,8 +408,10 @@ int main(void) {
   alarm(30); /* a loop without end is a failure too */
   gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
   test_clouds(rng);
+  test_mixtures(rng);
   test_exact();
   test_flung_cost(rng);
+  test_mixed_cost(rng);
   test_errors(rng);
   gsl_rng_free(rng);
   return check_done();

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Pairs of spheres close to each other, found with a cell grid in O(n). */
+/* Pairs of spheres close to each other, found with a cell grid for each class
+   of sizes in O(n + pairs), whatever sizes are mixed. */
 #ifndef NEIGHBORS_H
 #define NEIGHBORS_H
 
@@ -14,8 +15,9 @@ struct neighbors {
   uint32_t *i, *j;    /* count */
   size_t *first;      /* spheres + 1 */
   size_t spheres_size;
-  void *grid; /* scratch of the cell grid */
-  size_t grid_size;
+  size_t tested;       /* pairs whose distance the search looked at */
+  void *scratch;       /* of the cell grids */
+  size_t scratch_size; /* bytes */
 };
 
 /* Lists every pair whose gap |x_i - x_j| - r_i - r_j is at most reach (m).
