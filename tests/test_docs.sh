@@ -13,6 +13,10 @@ report() { # NAME STATUS
 pages="README.md CONTRIBUTING.md docs/*.md"
 
 # Captions and links
+headings() { # PAGE: its headings as links name them
+  sed -n 's/^##* //p' "$1" | tr '[:upper:]' '[:lower:]' |
+    sed 's/[^a-z0-9 _-]//g; s/ /-/g'
+}
 included=0
 for page in $pages; do
   awk -f plots/captions.awk "$page" | cmp -s - "$page"
@@ -20,10 +24,17 @@ for page in $pages; do
   n=$(grep -c '^<!-- docs/' "$page")
   included=$((included + n))
   dir=$(dirname "$page")
-  for link in $(grep -o '](\([^)#:]*\))' "$page" | tr -d '()]'); do
-    # a caption's links are from the page that includes it
-    [ -e "$dir/$link" ] || [ -e "$link" ]
+  for link in $(grep -oE '\]\([^) ]*\)' "$page" | tr -d '()]' | grep -v ://); do
+    file=${link%%#*}
+    if [ -z "$file" ]; then
+      file=$page
+    elif [ -e "$dir/$file" ]; then
+      file=$dir/$file
+    fi # else a caption's, whose links are from the page that includes it
+    [ -e "$file" ]
     report "$page: no file $link" $?
+    [[ $link != *#* ]] || headings "$file" | grep -qx -- "${link#*#}"
+    report "$page: no heading $link" $?
   done
 done
 ((included > 0))
