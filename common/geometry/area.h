@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Exact areas of discs in a rectangle and of spheres on the shell of a
-   cylinder, summed and united: what a plane or a shell at some distance from a
-   wall has of spheres. Not in the paper. Lengths in m, areas in m^2; rectangles
-   are {x0, x1, y0, y1}. The union of discs is found as that of balls is in
-   volume.h, by power cells (Avis, Bhattacharya, Imai, The Visual Computer 3
-   (1988) 323). Safe in any thread. Tested in tests/test_area.c. */
+   cylinder, summed and united: the cuts of spheres by a plane or by a shell at
+   some distance from a wall. Not in the paper. Lengths in m, areas in m^2;
+   rectangles are {x0, x1, y0, y1}. The union of discs is found as that of balls
+   is in volume.h, by power cells (Avis, Bhattacharya, Imai, The Visual Computer
+   3 (1988) 323). Safe in any thread. Tested in tests/test_area.c. */
 #ifndef AREA_H
 #define AREA_H
 
@@ -31,9 +31,9 @@ struct area_shell {
   double z[2];    /* ends */
 };
 
-/* What n spheres cover of a shell, each by itself and united; exact, by
-   elliptic integrals. x: 3n, r: n. Returns GSL_SUCCESS, GSL_EINVAL for numbers
-   that are not finite or a shell's radius not above 0, GSL_ENOMEM. */
+/* The area of a shell that n spheres cover, each by itself and united; exact,
+   by elliptic integrals. x: 3n, r: n. Returns GSL_SUCCESS, GSL_EINVAL for
+   numbers that are not finite or a shell's radius not above 0, GSL_ENOMEM. */
 int area_shell_covered(size_t n, const double *x, const double *r,
                        const struct area_shell *shell, double *sum,
                        double *united);

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* Is x within the box, its faces included? */
+/* Whether x is within the box, its faces included. */
 static inline bool box_holds(const double box[6], const double x[3]) {
   for (int k = 0; k < 3; k++)
     if (!(x[k] >= box[2 * k] && x[k] <= box[2 * k + 1]))
@@ -16,7 +16,7 @@ static inline bool box_holds(const double box[6], const double x[3]) {
   return true;
 }
 
-/* Does it hold a ball whole? Has it nothing of it? */
+/* Whether it holds a ball whole, and whether it holds nothing of it. */
 static inline bool box_holds_ball(const double box[6], const double c[3],
                                   double r) {
   for (int k = 0; k < 3; k++)
@@ -39,8 +39,8 @@ static inline double box_volume(const double box[6]) {
   return (box[1] - box[0]) * (box[3] - box[2]) * (box[5] - box[4]);
 }
 
-/* Has it a volume that can be divided by? Faces in order and finite, a product
-   that neither overflows nor vanishes. */
+/* Whether it has a volume to divide by: faces in order and finite, and a
+   product that neither overflows nor vanishes. */
 static inline bool box_valid(const double box[6]) {
   return box[0] < box[1] && box[2] < box[3] && box[4] < box[5] &&
          box_volume(box) > 0 && isfinite(box_volume(box));

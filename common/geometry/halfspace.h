@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What volume.c and area.c share: half-spaces {x: n.x <= h} seen from the
-   centre of a ball or disc, and how one restricts the boundary of another. Unit
-   normals n; offsets h from the centre (m). Pure inline functions, safe in any
-   thread. Tested in tests/test_volume.c and tests/test_area.c. */
+/* Half-spaces {x: n.x <= h} seen from the centre of a ball or disc, and how one
+   restricts the boundary of another, for volume.c and area.c. Unit normals n;
+   offsets h from the centre (m). Pure inline functions, safe in any thread.
+   Tested in tests/test_volume.c and tests/test_area.c. */
 #ifndef HALFSPACE_H
 #define HALFSPACE_H
 
@@ -39,8 +39,8 @@ static inline double halfspace_restricted(int dim, const double *na, double ha,
   return (hb - *sign * ha) + *sign * ha * d2 / 2;
 }
 
-/* Does half-space b leave nothing of a's boundary when the two are parallel?
-   Of equals the first stays. */
+/* Whether half-space b leaves nothing of a's boundary when the two are
+   parallel. Of equals the first stays. */
 static inline bool halfspace_hidden(double ha, double hb, double sign,
                                     bool b_first) {
   if (sign > 0)

@@ -56,7 +56,8 @@ static size_t cell_index(const struct grid *g, size_t cx, size_t cy,
   return (cx * g->dim[1] + cy) * g->dim[2] + cz;
 }
 
-/* Numbers of cells no smaller than edge between low and high; their product. */
+/* Numbers of cells no smaller than edge between low and high; returns their
+   product. */
 static double grid_dimensions(const struct grid *g, const double high[3],
                               double edge, double dim[3]) {
   for (int k = 0; k < 3; k++)

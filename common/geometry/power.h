@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Power cells of discs and balls: what volume.c and area.c share. A point is in
+/* Power cells of discs and balls, for volume.c and area.c. A point is in
    the cell of the ball to which its power |x - c|^2 - r^2 is least, so that the
    cells share out space and the union of the balls is the sum of what each has
    of its own cell: Avis, Bhattacharya, Imai, The Visual Computer 3 (1988) 323.
@@ -32,7 +32,7 @@ int power_alloc(struct power **out, int dim, size_t n, const double *x,
                 const void *place);
 void power_free(struct power *p);
 
-/* What partner j leaves of the space around ball i: the half-space {y:
+/* The space around ball i that partner j leaves: the half-space {y:
    plane[0..2].(y - x_i) <= plane[3]} with a unit normal; or, where the two are
    concentric to rounding, ALL or NONE of it. Of equals the first one stays. */
 enum power_leaves { POWER_HALF, POWER_ALL, POWER_NONE };

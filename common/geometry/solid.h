@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is solid of a bed that is handed on: spheres, bridges between them, and
-   the container around; and the exact volume of it all in a box. Not in the
+/* The solid of a bed that is handed on: spheres, bridges between them, and the
+   container around; and its exact volume in a box. Not in the
    paper. Lengths in m, volumes in m^3, boxes {x0, x1, y0, y1, z0, z1}.
 
    A bridge is a cylinder about the line of two centres, from one to the other,
@@ -39,8 +39,8 @@ struct solid_volume {
 int solid_volume(const struct solid *s, const double box[6],
                  struct solid_volume *volume);
 
-/* Pairs of spheres whose gap is at most reach (m), to be freed: those to
-   bridge. Returns GSL_SUCCESS, GSL_EINVAL as neighbors_find, GSL_ENOMEM. */
+/* Pairs of spheres to bridge, those whose gap is at most reach (m); to be
+   freed. Returns GSL_SUCCESS, GSL_EINVAL as neighbors_find, GSL_ENOMEM. */
 int solid_pairs(size_t n, const double *x, const double *r, double reach,
                 uint32_t (**ends)[2], size_t *count);
 

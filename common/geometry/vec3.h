@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Operations on double[3]: coordinates in metres, or whatever unit the caller
-   uses throughout. Pure inline functions, safe in any thread. */
+/* Operations on double[3]: coordinates in metres, or any other unit that the
+   caller uses throughout. Pure inline functions, safe in any thread. */
 #ifndef VEC3_H
 #define VEC3_H
 

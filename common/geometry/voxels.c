@@ -26,7 +26,7 @@ struct voxels {
   uint32_t *member;
 };
 
-/* What a cell holds: a sphere's number, or one of these. */
+/* The contents of a cell: a sphere's number, or one of these. */
 static const uint32_t NOTHING = UINT32_MAX, SOLID = UINT32_MAX - 1,
                       SEVERAL = UINT32_MAX - 2;
 
@@ -151,7 +151,7 @@ static int grow(void **array, size_t *size, size_t want, size_t bytes) {
   return GSL_SUCCESS;
 }
 
-/* Does the sphere reach into layer k, and into which of the rows? */
+/* Whether the sphere reaches into layer k, and into which of the rows. */
 static bool rows_met(const struct voxels *v, size_t i, size_t k, size_t j0,
                      size_t j1, size_t *first, size_t *end) {
   const double *c = v->x + 3 * i, r = v->r[i];
@@ -189,8 +189,8 @@ static int list_members(struct voxels *v, size_t k, size_t j0, size_t j1) {
   return GSL_SUCCESS;
 }
 
-/* One row and what a thread keeps for it: the spheres that the row meets, what
-   its cells hold, and room for the spheres of a cell. */
+/* One row and the scratch that a thread keeps for it: the spheres that the row
+   meets, what its cells hold, and room for the spheres of a cell. */
 struct row {
   const struct voxels *v;
   size_t count;
@@ -385,7 +385,8 @@ static double surface_distance(const double p[3], const double c[3], double r) {
   return sqrt(dx * dx + dy * dy + dz * dz) - r;
 }
 
-/* Moves what may be nearest somewhere in the block to the front; how many. */
+/* Moves spheres that may be nearest somewhere in the block to the front;
+   returns their number. */
 static size_t sift(const struct block *b, uint32_t *candidate, size_t count) {
   const struct voxels *v = b->v;
   double p[3], half2 = 0;

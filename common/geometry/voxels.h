@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A box cut into equal cells, and what spheres make of each: the exact solid
+/* A box cut into equal cells, with a value of each cell: the exact solid
    fraction, whether its midpoint is solid, or the midpoint's distance to the
    surface. Row by row, so that a grid needs no memory of its own; not in the
    paper. Lengths in m, boxes {x0, x1, y0, y1, z0, z1}. Tested in
@@ -27,7 +27,7 @@ enum voxels_value {
 
 struct voxels;
 
-/* Takes what it needs of n spheres (x: 3n, r: n; radii of 0 and less are left
+/* Prepares a grid of n spheres (x: 3n, r: n; radii of 0 and less are left
    out) and of the grid of cells[k] cells along axis k. Returns GSL_SUCCESS,
    GSL_EINVAL for a box without volume, no cells, or what is not finite,
    GSL_ENOMEM. */
