@@ -27,8 +27,8 @@ enum voxels_value {
 
 struct voxels;
 
-/* Prepares a grid of n spheres (x: 3n, r: n; radii of 0 and less are left
-   out) and of the grid of cells[k] cells along axis k. Returns GSL_SUCCESS,
+/* Prepares the voxels of n spheres (x: 3n, r: n; radii of 0 and less are left
+   out) on a grid of cells[k] cells along axis k. Returns GSL_SUCCESS,
    GSL_EINVAL for a box without volume, no cells, or what is not finite,
    GSL_ENOMEM. */
 int voxels_open(struct voxels **v, size_t n, const double *x, const double *r,
