@@ -21,9 +21,11 @@ static const struct format {
   const char *name, *help;
   const char *takes; /* options that not every format takes */
   write_function *write;
-  bool binary; /* nothing for a terminal */
-  bool many;   /* frames in one file */
-  bool series; /* ParaView's .pvd lists such files */
+  write_files_function *write_files; /* or this, for several files */
+  double base;                       /* its side, unless --scale says more */
+  bool binary;                       /* nothing for a terminal */
+  bool many;                         /* frames in one file */
+  bool series;                       /* ParaView's .pvd lists such files */
 } formats[] = {
     {.name = "positions",
      .help = "x y z of the centres, tab-separated, nothing else",
@@ -70,6 +72,11 @@ static const struct format {
      .takes = "scale offset " VOXELS,
      .write = write_raw,
      .binary = true},
+    {.name = "freezethaw",
+     .help = "folder for the paper's solver: positions, a part of Params",
+     .takes = "scale offset box",
+     .write_files = write_freezethaw,
+     .base = 0.03},
     {.name = "bed",
      .help = "our own format",
      .takes = "box",
@@ -129,8 +136,8 @@ static void take_cells(const struct option_list *list, size_t cells[3]) {
         OPTION_MANY);
 }
 
-/* Writes a frame as s, the shape to be freed. */
-static void write_one(FILE *out, const struct request *q,
+/* Writes a frame, to out or under a name, as s, the shape to be freed. */
+static void write_one(FILE *out, const char *name, const struct request *q,
                       const struct frames *frames, const struct bed *b,
                       size_t number, bool first, struct shape *s) {
   shape_make(s, &q->shape, frames, b);
@@ -140,7 +147,10 @@ static void write_one(FILE *out, const struct request *q,
   for (size_t i = 0; i < b->n; i++)
     least = GSL_MIN(least, b->id[i]);
   f.id_offset = 1 - least;
-  q->format->write(out, &f, &q->write);
+  if (q->format->write_files)
+    q->format->write_files(name, &f, &q->write);
+  else
+    q->format->write(out, &f, &q->write);
 }
 
 /* What was written, once it is: the last of several frames. */
@@ -222,10 +232,14 @@ static void write_series(const struct request *q, struct frames *frames) {
   }
   for (size_t number = 0; frames_next(frames, &bed); number++) {
     char *name = pattern_name(&pattern, number);
-    output_open(&out, name);
     struct shape shape;
-    write_one(out.stream, q, frames, &bed, number, true, &shape);
-    output_commit(&out);
+    if (q->format->write) {
+      output_open(&out, name);
+      write_one(out.stream, name, q, frames, &bed, number, true, &shape);
+      output_commit(&out);
+    } else {
+      write_one(NULL, name, q, frames, &bed, number, true, &shape);
+    }
     say(q, &shape);
     if (list_name)
       fprintf(list.stream, "<DataSet timestep=\"%.17g\" file=\"%s\"/>\n", bed.t,
@@ -266,11 +280,11 @@ static void write_stream(FILE *out, const struct request *q,
   if (q->format->many && q->all) {
     for (size_t k = 0; frames_next(frames, &bed) && !ferror(out); k++) {
       shape_free(shape);
-      write_one(out, q, frames, &bed, k, k == 0, shape);
+      write_one(out, q->output, q, frames, &bed, k, k == 0, shape);
     }
   } else {
     const size_t count = read_one(q, frames, &bed);
-    write_one(out, q, frames, &bed, count - 1, true, shape);
+    write_one(out, q->output, q, frames, &bed, count - 1, true, shape);
   }
   bed_free(&bed);
 }
@@ -279,6 +293,8 @@ static void export(const struct request *q, struct frames *frames) {
   struct shape shape = {0};
   if (q->all && !q->format->many) {
     write_series(q, frames);
+  } else if (q->format->write_files) {
+    write_stream(NULL, q, frames, &shape);
   } else if (q->output) {
     struct output_file out;
     output_open(&out, q->output);
@@ -376,6 +392,10 @@ int verb_export(int argc, char **argv) {
   memcpy(q.shape.offset, offset.at, sizeof q.shape.offset);
   take_cells(&cells, q.write.cells);
   q.write.threads = system_threads(q.write.threads);
+  if (q.format->write_files && !q.output)
+    die(EXIT_USAGE, "--format %s: expected --output for its files", format);
+  if (!option_find(options, "scale")->given)
+    q.shape.base = q.format->base;
   if (q.format->binary && !q.output && isatty(STDOUT_FILENO))
     die(EXIT_USAGE, "--format %s: not for a terminal, expected > FILE", format);
 

@@ -56,7 +56,8 @@ static void move(struct shape *s) {
 
 void shape_make(struct shape *s, const struct shape_options *o,
                 const struct frames *f, const struct bed *b) {
-  *s = (struct shape){.header = frames_header(f),
+  *s = (struct shape){.source = b,
+                      .header = frames_header(f),
                       .frames = f,
                       .scale = o->scale,
                       .fraction = GSL_NAN};
@@ -69,6 +70,9 @@ void shape_make(struct shape *s, const struct shape_options *o,
   lattice(s->header, &s->bed, s->lattice);
   if (o->box_given)
     memcpy(s->lattice, s->box, sizeof s->lattice);
+  memcpy(s->source_box, s->box, sizeof s->box);
+  if (o->base > 0)
+    s->scale = o->base / (s->box[1] - s->box[0]);
   move(s);
   s->solid = (struct solid){.n = s->bed.n, .x = s->bed.x, .r = s->bed.r};
 }

@@ -12,6 +12,7 @@
 /* Lengths are the bed's (m). */
 struct shape_options {
   double scale, offset[3]; /* x becomes scale x + offset */
+  double base; /* above 0: scale is such that the box is so wide along x */
   bool box_given;
   double box[6]; /* of fractions, voxels and surfaces; else the bed's base */
 };
@@ -21,6 +22,8 @@ struct shape {
   const struct bed_header *header;
   const struct frames *frames; /* for messages */
   struct solid solid;
+  const struct bed *source; /* the frame as it came, and the box */
+  double source_box[6];
   double scale, offset[3];
   double box[6];     /* the one of the options, as it is handed over */
   double lattice[6]; /* by walls and spheres, for formats with a cell */

@@ -99,4 +99,126 @@ hand --format csv "$T/wide" >/dev/null
 check 'the box is the cube on the base' \
   grep -q 'of the box 0,2,0,3,0,2 ' "$T/said"
 
+# --- the paper's solver ------------------------------------------------------
+solver() { # FOLDER: x y z r of each sphere (m), as it has them; L1 L2 L3 xi_gl
+  tr -s ' \t\n' '\n' <"$1/spheres_positions.txt" | awk -v params="$1/Params" '
+    function value(text, part, k, v) {  # a product or quotient of names
+      k = split(text, part, /[*\/]/)
+      v = part[1] in name ? name[part[1]] : part[1] + 0
+      if (k > 1) {
+        part[2] = part[2] in name ? name[part[2]] : part[2] + 0
+        v = text ~ /\// ? v / part[2] : v * part[2]
+      }
+      return v
+    }
+    BEGIN {
+      while ((getline line < params) > 0)
+        if (line !~ /^#/ && split(line, f, " ") == 2)
+          name[f[1]] = value(f[2])
+      split("x y z", axis, " ")
+      OFS = ","
+    }
+    /^[-+]?[0-9.]+(e[-+]?[0-9]+)?$/ {c[++got] = $1; if (got < 3) next
+      for (k = 1; k <= 3; k++)
+        c[k] = c[k] * name["beads_scaling"] + name["beads_offset_" axis[k]]
+      if (++balls <= 1000) print c[1], c[2], c[3], name["ball_radius"]
+      got = 0; next}
+    {exit}
+    END {print balls + 0, name["L1"], name["L2"], name["L3"], name["xi_gl"]}' \
+    OFMT=%.17g CONVFMT=%.17g
+}
+
+freezing() { # NAME ARGUMENT...: hands a bed on and reads it as the solver does
+  local name=$1
+  shift
+  rm -rf "$T/case"
+  check "$name" hand --format freezethaw --output "$T/case" "$@"
+  solver "$T/case" >"$T/solver"
+  IFS=, read -r balls l1 l2 l3 xi < <(tail -n 1 "$T/solver")
+  (echo x,y,z,r && sed '$d' "$T/solver") >"$T/solver.csv"
+}
+freezing 'freezethaw' "$T/geometry"
+check 'freezethaw: 200 balls are read' [ "$balls" = 200 ]
+check 'freezethaw: nothing but numbers' \
+  awk -F '\t' 'NF != 3 || /[^-+.0-9e\t]/ {bad = 1} END {exit bad}' \
+  "$T/case/spheres_positions.txt"
+check 'freezethaw: positions are of a unit base' cmp -s \
+  <(awk -F '\t' '/^[0-9]/ {print $2 + 0, $3 + 0, $4 + 0}' "$T/geometry") \
+  <(awk '{print $1 + 0, $2 + 0, $3 + 0}' "$T/case/spheres_positions.txt")
+check "freezethaw: the published domain, got $l1 $l2 $l3" \
+  [ "$l1 $l2 $l3" = '0.029999999999999999 0.029999999999999999 0.059999999999999998' ]
+near 'freezethaw: its radius' "$(awk -F , 'NR == 2 {print $4}' \
+  "$T/solver.csv")" "$(awk -v r="$r" 'BEGIN {printf "%.17g", 0.03 * r}')" 1e-17
+near 'freezethaw: the solid is the one stated' "$(stated fraction)" \
+  "$(union --box "0,$l1,0,$l2,0,$l1" "$T/solver.csv")" 1e-10
+near 'freezethaw: and the bed'"'"'s' "$(stated fraction)" \
+  "$(union "$T/geometry")" 1e-10
+# the phase field at the midpoints of a grid, as the solver computes it
+diffuse() { # CELLS XI: its mean in the bottom cube
+  "$B/analyze" export --quiet --format raw --distance --cells "$1" \
+    --box "0,$l1,0,$l2,0,$l1" "$T/solver.csv" | od -An -v -w8 -tf8 | awk -v xi="$2" '
+    {a = exp(-$1 / xi); sum += a == "inf" ? 1 : a / (1 + a)}
+    END {printf "%.17g", sum / NR}'
+}
+for width in 1000 500 300; do
+  near "freezethaw: mean of the profile at L3/$width" "$(
+    sed -n "s|^#  *xi_gl L3/$width *\([0-9.]*\),.*|\1|p" "$T/case/Params")" \
+    "$(diffuse 60 "$(awk -v l="$l3" -v w=$width 'BEGIN {print l / w}')")" 2e-3
+done
+near 'freezethaw: the width suggested' "$xi" \
+  "$(awk -v l="$l3" 'BEGIN {print l / 300}')" 1e-12
+freezing 'a soft bed' "$T/bed"
+near 'its overlaps ask for a thinner profile' "$xi" \
+  "$(awk -v l="$l3" 'BEGIN {print l / 500}')" 1e-12
+# walls of 5 % of the domain, as in the published case; another base
+freezing 'with walls' --scale 0.027 --offset 0.0015,0.0015,0.0015 "$T/bed"
+near 'walls: the domain' "$l1" 0.03 1e-17
+near 'walls: the solid' "$(stated fraction)" "$(union --box \
+  0.0015,0.0285,0.0015,0.0285,0.0015,0.0285 "$T/solver.csv")" 1e-10
+near 'walls: is the same' "$(stated fraction)" "$(union "$T/bed")" 1e-10
+awk 'BEGIN {OFS = "\t"} /^# wall=/ {sub(/=1/, "=4"); sub(/=0 1/, "=0 4")
+  print; next} /^[0-9]/ {for (k = 2; k <= 5; k++) $k *= 4} {print}' \
+  FS='\t' CONVFMT=%.17g OFMT=%.17g "$T/bed" >"$T/large"
+freezing 'a base of 4 m' "$T/large"
+check 'another base: the same numbers' awk '
+  {for (k = 1; k <= 3; k++) {d = $k - $(k + 3)
+    if (!(d < 1e-14 && -d < 1e-14)) bad = 1}} END {exit bad || NR != 200}' \
+  <(paste <(awk -F '\t' '/^[0-9]/ {print $2, $3, $4}' "$T/bed") \
+  "$T/case/spheres_positions.txt")
+near 'another base: the same solid' "$(union --box "0,$l1,0,$l2,0,$l1" \
+  "$T/solver.csv")" "$(union "$T/bed")" 1e-10
+hand --format freezethaw --output "$T/case" "$T/bed"
+check 'its own Params may be written again' [ $? = 0 ]
+mkdir "$T/theirs"
+echo 'L1 0.03' >"$T/theirs/Params"
+refuse 'a Params of their own' 2 'its Params is not of' --format freezethaw \
+  --output "$T/theirs" "$T/bed"
+check 'it is left alone' [ "$(ls "$T/theirs")" = Params ]
+refuse 'no folder' 2 'expected --output' --format freezethaw "$T/bed"
+awk 'BEGIN {print "x,y,z,r"; for (i = 0; i < 1001; i++)
+  print (i % 10 + 0.5) / 10 "," (int(i / 10) % 10 + 0.5) / 10 "," \
+    (int(i / 100) + 0.5) / 10 ",0.04"}' >"$T/many.csv"
+refuse 'a thousand and one' 3 '1001 spheres; .* after 1000' \
+  --format freezethaw --output "$T/none" "$T/many.csv"
+check 'a refusal leaves no folder' [ ! -e "$T/none" ]
+head -n 1001 "$T/many.csv" >"$T/most.csv"
+check 'a thousand' hand --format freezethaw --output "$T/most" "$T/most.csv"
+printf 'x,y,z,r\n.5,.5,.5,.1\n.2,.2,.2,.11\n' >"$T/two.csv"
+refuse 'unequal radii' 3 'several radii' --format freezethaw \
+  --output "$T/none" "$T/two.csv"
+printf 'x,y,z,r\n.5,.5,1.74,.1\n' >"$T/high.csv"
+refuse 'a bed above the lid' 3 'z = 0.0552 m, above .* 0.055 m' \
+  --format freezethaw --output "$T/none" "$T/high.csv"
+printf 'x,y,z,r\n.5,.5,1.73,.1\n' >"$T/high.csv"
+check 'a bed below it' hand --format freezethaw --output "$T/none" "$T/high.csv"
+refuse 'a domain below 0' 2 '--offset: the base begins below 0 of y' \
+  --format freezethaw --offset 0,-0.001,0 --output "$T/none2" "$T/bed"
+"$B/analyze" export --format freezethaw --output "$T/full/case" "$T/bed" \
+  2>"$T/said"
+check 'a folder in none' [ $? = 1 ]
+check 'all frames, a folder each' hand --format freezethaw --frames all \
+  --output "$T/case-%02d" "$T/bed"
+check 'all frames: are there' cmp -s "$T/case-00/spheres_positions.txt" \
+  "$T/case/spheres_positions.txt"
+
 check_done

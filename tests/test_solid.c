@@ -259,6 +259,43 @@ static void test_shrink(gsl_rng *rng) {
   }
 }
 
+/* The diffuse profile on midpoints, as a solver has it. */
+static void test_diffuse(gsl_rng *rng) {
+  enum { N = 9, CELLS = 80 };
+  static const double unit[6] = {0, 1, 0, 1, 0, 1};
+  double x[3 * N], r[N];
+  for (size_t i = 0; i < N; i++) {
+    r[i] = 0.2 + 0.1 * gsl_rng_uniform(rng);
+    for (int k = 0; k < 3; k++)
+      x[3 * i + (size_t)k] = gsl_rng_uniform(rng);
+  }
+  for (int m = 1; m < 4; m++) {
+    const double xi = 0.03 * m;
+    double sum = 0, got = GSL_NAN;
+    for (size_t q = 0; q < CELLS * CELLS * CELLS; q++) {
+      const double p[3] = {((double)(q % CELLS) + 0.5) / CELLS,
+                           ((double)(q / CELLS % CELLS) + 0.5) / CELLS,
+                           ((double)(q / CELLS / CELLS) + 0.5) / CELLS};
+      double most = 0;
+      for (size_t i = 0; i < N; i++)
+        most = fmax(
+            most,
+            (1 - tanh(solid_ball_distance(x + 3 * i, r[i], p) / (2 * xi))) / 2);
+      sum += most;
+    }
+    CHECK(solid_diffuse(N, x, r, unit, xi, &got) == GSL_SUCCESS);
+    /* midpoints: h^2/24 times the mean second derivative, below 1/xi^2 */
+    CHECK_CLOSE(got, sum / (CELLS * CELLS * CELLS),
+                1. / (24 * CELLS * CELLS) / (xi * xi));
+  }
+  /* xi to 0: the union */
+  double united, sharp;
+  CHECK(volume_union(N, x, r, unit, &united) == GSL_SUCCESS);
+  CHECK(solid_diffuse(N, x, r, unit, 1e-5, &sharp) == GSL_SUCCESS);
+  CHECK_CLOSE(sharp, united, 1e-5);
+  CHECK(solid_diffuse(N, x, r, unit, 0, &sharp) == GSL_EINVAL);
+}
+
 static void test_refusals(void) {
   static const double x[6] = {0, 0, 0, 0, 0, 2}, r[2] = {1, 0.5};
   static const uint32_t ends[1][2] = {{0, 1}};
@@ -285,6 +322,7 @@ int main(void) {
   test_crossing(rng);
   test_primitives(rng);
   test_shrink(rng);
+  test_diffuse(rng);
   test_refusals();
   gsl_rng_free(rng);
   return check_done();

@@ -371,3 +371,49 @@ int solid_shrink(size_t n, const double *x, const double *r, double gap,
   *factor = least;
   return GSL_SUCCESS;
 }
+
+struct profile {
+  size_t n;
+  const double *x, *r, *box;
+  double xi, *grown;
+  int status;
+};
+
+/* Volume below the distance at which the profile is (1 - u)/2. */
+static double level_volume(double u, void *params) {
+  struct profile *p = params;
+  double volume = 0;
+  for (size_t i = 0; i < p->n; i++)
+    p->grown[i] = p->r[i] + 2 * p->xi * atanh(u);
+  if (p->status == GSL_SUCCESS)
+    p->status = volume_union(p->n, p->x, p->grown, p->box, &volume);
+  return volume;
+}
+
+int solid_diffuse(size_t n, const double *x, const double *r,
+                  const double box[6], double xi, double *mean) {
+  if (!(xi > 0) || !box_valid(box))
+    return GSL_EINVAL;
+  struct profile p = {.n = n,
+                      .x = x,
+                      .r = r,
+                      .box = box,
+                      .xi = xi,
+                      .grown = calloc(n + 1, sizeof *p.grown)};
+  gsl_integration_workspace *w = gsl_integration_workspace_alloc(INTERVALS);
+  p.status = w && p.grown ? GSL_SUCCESS : GSL_ENOMEM;
+  if (p.status == GSL_SUCCESS) {
+    gsl_function f = {level_volume, &p};
+    double sum, error;
+    const int status = gsl_integration_qag(&f, -1, 1, 0, 1e-5, INTERVALS,
+                                           GSL_INTEG_GAUSS15, w, &sum, &error);
+    if (p.status == GSL_SUCCESS && status != GSL_EROUND)
+      p.status = status;
+    if (p.status == GSL_SUCCESS)
+      *mean = sum / 2 / box_volume(box);
+  }
+  if (w)
+    gsl_integration_workspace_free(w);
+  free(p.grown);
+  return p.status;
+}

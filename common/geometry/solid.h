@@ -39,6 +39,16 @@ struct solid_volume {
 int solid_volume(const struct solid *s, const double box[6],
                  struct solid_volume *volume);
 
+/* Mean over a box of a phase field that is diffuse at the spheres' surfaces:
+   (1 - tanh(d / (2 xi)))/2, d the distance to the nearest surface, negative
+   inside, as |x - c| - r has it; the largest value where spheres overlap. The
+   points with d < s are the union of balls of radius r + s, whose volumes V(s)
+   are exact, so the mean is int V(s) sech^2(s / (2 xi)) / (4 xi) ds by the
+   box's volume. xi above 0. Relative error below 1e-5. Returns GSL_SUCCESS,
+   GSL_EINVAL, GSL_ENOMEM. */
+int solid_diffuse(size_t n, const double *x, const double *r,
+                  const double box[6], double xi, double *mean);
+
 /* Pairs of spheres to bridge, those whose gap is at most reach (m); to be
    freed. Returns GSL_SUCCESS, GSL_EINVAL as neighbors_find, GSL_ENOMEM. */
 int solid_pairs(size_t n, const double *x, const double *r, double reach,

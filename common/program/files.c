@@ -13,10 +13,15 @@
 /* Files begun and not committed go when the program does. */
 static char *begun[8];
 
+/* A folder that was made: no more than empty, it goes too. */
+static const char *made;
+
 static void remove_begun(void) {
   for (size_t i = 0; i < sizeof begun / sizeof *begun; i++)
     if (begun[i])
       unlink(begun[i]);
+  if (made)
+    rmdir(made);
 }
 
 static void remember(char *path) {
@@ -64,11 +69,33 @@ void output_commit(struct output_file *f) {
       (!f->partial || rename(f->partial, f->path) == 0)) {
     forget(f->partial);
     free(f->partial);
+    free(f->joined);
     return;
   }
   if (!failed && closed == 0)
     error = errno;
   die(EXIT_IO, "%s: %s", f->path, strerror(error));
+}
+
+void output_folder(const char *path) {
+  struct stat st;
+  if (mkdir(path, 0777) == 0)
+    made = path;
+  else if (errno != EEXIST)
+    die(EXIT_IO, "%s: %s", path, strerror(errno));
+  else if (stat(path, &st) == 0 && !S_ISDIR(st.st_mode))
+    die(EXIT_IO, "%s: is not a folder", path);
+}
+
+void output_open_in(struct output_file *f, const char *folder,
+                    const char *name) {
+  const size_t size = strlen(folder) + strlen(name) + 2;
+  char *path = malloc(size);
+  if (!path)
+    die(EXIT_IO, "out of memory");
+  snprintf(path, size, "%s/%s", folder, name);
+  output_open(f, path);
+  f->joined = path;
 }
 
 FILE *input_open(const char *path, const char **name) {
