@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Explicit Runge-Kutta step types one step at a time, and the step controls.
-   merson and dopri5 stand in one table with three of GSL's own pairs: what
+   merson and dopri5 stand in one table with three of GSL's own methods: what
    holds for those as well is a test of the tests.
 
    An observed order is the slope of log error over log step in a window: the

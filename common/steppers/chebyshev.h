@@ -29,9 +29,9 @@ struct chebyshev_scheme {
   struct chebyshev_stage stage[]; /* stages - 1, the first is j = 2 */
 };
 
-/* The largest h times spectral radius on the negative real axis that so many
-   stages, 2 or more, are stable for, about 0.65 stages^2; by the recurrence,
-   anew at each call. Safe in any thread. */
+/* The largest h times spectral radius on the negative real axis for which this
+   number of stages, 2 or more, is stable, about 0.65 stages^2; by the
+   recurrence, anew at each call. Safe in any thread. */
 double chebyshev_reach(size_t stages);
 
 struct chebyshev;
@@ -44,8 +44,8 @@ void chebyshev_free(struct chebyshev *c);
    CHEBYSHEV_MOST do not or z is NaN. */
 size_t chebyshev_stages(struct chebyshev *c, double z);
 
-/* The scheme of so many stages, from 2 to CHEBYSHEV_MOST; it stays c's. NULL
-   without memory. */
+/* The scheme with this number of stages, from 2 to CHEBYSHEV_MOST; it stays
+   c's. NULL without memory. */
 const struct chebyshev_scheme *chebyshev_scheme(struct chebyshev *c,
                                                 size_t stages);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Explicit embedded Runge-Kutta pairs as gsl_odeiv2 step types: the engine.
-   A method is a file of its own with its tableau and one exported pointer. */
+/* The engine of explicit embedded Runge-Kutta methods as gsl_odeiv2 step types.
+   Each method is a file with its tableau and one exported pointer. */
 #ifndef RUNGE_KUTTA_H
 #define RUNGE_KUTTA_H
 

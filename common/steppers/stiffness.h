@@ -33,7 +33,7 @@ double stiffness_limit_at(const struct stiffness_limits *l, double angle);
 
 /* A step is at its limit from 0.8 of it: step control hunts for it from below.
    Stability, not the tolerance, sets the pace of a run where half of the
-   accepted steps are; fewer than 1000 are not worth a word. */
+   accepted steps are; fewer than 1000 cause no warning. */
 static inline bool stiffness_at_limit(double product, double limit) {
   return product >= 0.8 * limit;
 }
@@ -53,9 +53,9 @@ struct stiffness_mode {
   double angle;  /* of lambda or its conjugate, pi/2 to pi; growth is pi/2 */
 };
 
-/* So many power iterations (>= 2), each one evaluation, at a state with
-   derivative f, from the direction of the last call on. The eigenvalue is that
-   of the last two by least squares in the plane that they span, so that a
+/* Makes a number of power iterations (>= 2), each one evaluation, at a state
+   with derivative f, from the direction of the last call on. The eigenvalue is
+   that of the last two by least squares in the plane that they span, so that a
    complex pair is found as well as a real one: J. H. Wilkinson, The Algebraic
    Eigenvalue Problem, Oxford (1965), ch. 9. Before it has converged it is an
    estimate from below as a rule. Returns the right-hand side's error. */

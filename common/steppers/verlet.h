@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Velocity Verlet, the field's standard, as a gsl_odeiv2 step type with a
-   fixed step and one evaluation a step: L. Verlet, Phys. Rev. 159 (1967) 98;
+   fixed step and one evaluation per step: L. Verlet, Phys. Rev. 159 (1967) 98;
    W. C. Swope et al., J. Chem. Phys. 76 (1982) 637. Forces that depend on
    velocity are evaluated with that of the half step, as molecular dynamics
    codes do, so friction is integrated to first order. It has no error
