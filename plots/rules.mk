@@ -20,12 +20,14 @@ SEEDS := 1 2 $(if $(QUICK),,3 4 5 6 7 8 9 10)
 PAPER := --method merson --control paper --tol 0.1
 EMBEDDED := merson dopri5 rkf45 rkck rk8pd
 
+# Pictures of QUICK have half the size
+GNUPLOT := gnuplot $(if $(QUICK),-e magnify=1)
 # The rule's gnuplot script with its data as SVG and PNG: the prerequisites that
 # end in .gp, and in .tsv or .log.
 define draw
 @mkdir -p $(@D)
-gnuplot -c $(firstword $(filter %.gp,$^)) $(filter %.tsv %.log,$^) $(basename $@).svg
-gnuplot -c $(firstword $(filter %.gp,$^)) $(filter %.tsv %.log,$^) $(basename $@).png
+$(GNUPLOT) -c $(firstword $(filter %.gp,$^)) $(filter %.tsv %.log,$^) $(basename $@).svg
+$(GNUPLOT) -c $(firstword $(filter %.gp,$^)) $(filter %.tsv %.log,$^) $(basename $@).png
 endef
 
 # A table of data as Markdown

@@ -5,7 +5,7 @@
 # SETTINGS is a path that is the command line: model-rotation/tol-1e-3/seed-3
 # runs settle --model rotation --tol 1e-3 --seed 3, so that a file is named by
 # what made it; further options come after it. RUN is a command to run it under, such as a lock.
-# Columns: the settings, "-" where settle chose; status (ok, gave_up where no
+# Columns: the settings, "-" where settle chose, but for count and time; status (ok, gave_up where no
 # step was short enough, stuck where LIMIT seconds of CPU time were not enough);
 # cost; fractions up to 1 m above the base; spheres whose centre is outside the
 # walls in the end; and, of frames-K, the kinetic energy per sphere (J), mean
@@ -83,6 +83,11 @@ motion=$(awk -F '\t' -v width="${base%,*}" -v depth="${base#*,}" '
     print outside[frames] + 0 "\t" mean(0.875 * end, end) "\t" mean(0.75 * end, 0.875 * end)
   }' "$T/bed")
 
+# what settle chose, of what tells the size of the run
+for c in count time; do
+  value[$c]=${value[$c]:-$("$B/settle" --help |
+    sed -n "s/^ *--$c .*\\[\\([0-9.]*\\)\\]\$/\\1/p")}
+done
 row=
 for c in $columns; do row+="${value[$c]:--}"$'\t'; done
 printf '%s\t' $columns status cpu_seconds evaluations accepted rejected sum \

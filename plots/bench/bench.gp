@@ -31,7 +31,7 @@ do for [b=0:2] {
   set bmargin at screen top - b*(panel + 0.02) - panel
   if (b == 2) {
     set format x "%h"
-    set xlabel "CPU time for 8 s of 200 spheres (s)"
+    set xlabel "CPU time for ".header(ARG1, "run")." (s)"
   }
   set ylabel b == 1 ? "union fraction" : ""
   set ytics step(variant)

@@ -5,6 +5,8 @@
 # twice) with Merson's method.
 set -eu
 dir=$1
+awk '$1 == "spheres" { n = $2 } $1 == "t_end" { t = $2 }
+  END { printf "# run=%g s of %d spheres\n", t, n }' "$dir"/basic-merson-1.stats
 for variant in basic friction rotation; do
   printf 'variant\tmethod\tseeds\tcpu_seconds\tevaluations\tus_per_evaluation'
   printf '\tsum\tunion\tstandard_error\ttimes_cheaper\n'

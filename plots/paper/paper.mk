@@ -32,7 +32,7 @@ fig4.2: $(F)/fig4.2.png ## the 200 spheres: start, and three variants at 8 s
 $(F)/fig4.2.png: plots/paper/fig4.2.gp plots/draw/balls.gp plots/style.gp \
   $(D)/paper/start.tsv $(VARIANTS:%=$(D)/paper/%.bed)
 	@mkdir -p $(@D)
-	gnuplot -c $< $(filter %.tsv %.bed,$^) $@
+	$(GNUPLOT) -c $< $(filter %.tsv %.bed,$^) $@
 
 fig4.4: $(F)/fig4.4.svg ## accepted steps against time
 $(F)/fig4.4.svg: plots/paper/fig4.4.gp plots/style.gp \

@@ -162,7 +162,7 @@ $(F)/precision-$(1)-$(2)-$(3).svg: plots/precision/precision.gp \
   plots/style.gp $(PRECISION_DATA)/$(1).tsv
 	@mkdir -p $$(@D)
 	for end in svg png; do \
-	  gnuplot -c $$< $$(filter %.tsv,$$^) $$(basename $$@).$$$$end \
+	  $(GNUPLOT) -c $$< $$(filter %.tsv,$$^) $$(basename $$@).$$$$end \
 	  '$$(TITLE_$(1))' $(3) error_$(2) '$$(XLABEL_$(3))' \
 	  '$$(YLABEL_$(2))' '$$(ORDERS_$(1))' || exit; \
 	done

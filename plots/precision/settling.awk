@@ -32,6 +32,7 @@ function get(name) { return $(at[name]) }
     step[run] = get("step")
   }
   i = ++count[run]
+  size = get("time") " s of " get("count") " spheres"
   seed[run, i] = get("seed")
   union[run, i] = get("union")
   if (get("status") != "ok") failed[run]++
@@ -106,6 +107,7 @@ function print_run(block, setting,   run, ref, i, j, n, m, v, mv, paired, \
     printf "nan\tnan\tnan\tnan\t%s\n", status
 }
 END {
+  print "# run=" size
   for (b = 1; b <= nblocks; b++) {
     print (b > 1 ? "\n\n" : "") "variant\tmethod\ttol\tstep\tseeds\t" \
       "cpu_seconds\tevaluations\tspread\tdifference\tinterval\trms\tlargest\tstatus"

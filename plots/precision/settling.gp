@@ -53,7 +53,7 @@ do for [p=1:3] {
   set tmargin at screen 0.985 - (p - 1)*(panel + 0.018)
   set bmargin at screen 0.985 - (p - 1)*(panel + 0.018) - panel
   set format x p == 3 ? "%h" : ""
-  set xlabel p == 3 ? "CPU time for 8 s of 200 spheres (s)" : ""
+  set xlabel p == 3 ? "CPU time for ".header(ARG1, "run")." (s)" : ""
   set ylabel word(ylabels, p)
   set label 1 word(headings, p) at graph 0.98,0.93 right
   stats ARG1 using (strcol("variant") eq variant && strcol("status") eq \

@@ -1,10 +1,6 @@
-#!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The studies of where methods fail, at their reduced size: `make QUICK=1
-# stability-...` runs them, and what the page docs/stability.md says of them must
-# be in the data. Run from the root of the repository; B is the directory of the
-# programs.
-. tests/harness.sh
+# A part of tests/test_figures.sh: make stability. What docs/stability.md says of
+# where methods fail must be in the data.
 D=$T/data/stability
 
 # in_range NAME FILE PROGRAM: the awk program prints a value and its bounds for
@@ -23,17 +19,6 @@ in_range() {
 inside() { # the same as a check of its own
   check "$1" in_range "$@"
 }
-
-targets='stability-regions stability-tunnel stability-drift stability-creep
-  stability-cut'
-# charts need gnuplot, the data do not
-if ! command -v gnuplot > /dev/null; then
-  echo 'skipped: no gnuplot, so no charts are made'
-  targets="$D/limits.tsv $D/tunnel.tsv $D/drift-bounce.tsv $D/drift-box.tsv
-    $D/creep.tsv $D/cut.tsv"
-fi
-check 'make QUICK=1 stability' \
-  make -s QUICK=1 B="$B" D="$T/data" F="$T/figures" $targets > /dev/null
 
 # Limits: theory is that of the stepper on the linear test equation, measured on
 # contacts; and what the literature has (Hairer and Wanner, IV.2; Merson from
@@ -118,5 +103,3 @@ for section in 'Stability limits' 'Penetration' 'Wrong beds' \
   check "docs/stability.md: $section" \
     grep -q "^## $section\$" docs/stability.md
 done
-
-check_done

@@ -1,14 +1,8 @@
-#!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# make precision QUICK=1: errors are as small as tolerances promise, orders are
-# those of the methods and of the contact laws' smoothness, failures are marked.
-. tests/harness.sh
-
-check 'make precision-scenes QUICK=1' \
-  make -s precision-scenes QUICK=1 B="$B" D="$T/data" F="$T/figures" \
-  >"$T/log" 2>&1 || cat "$T/log"
+# A part of tests/test_figures.sh: make precision. Errors are as small as
+# tolerances promise, orders are those of the methods and of the contact laws'
+# smoothness, failures are marked.
 D=$T/data/precision
-F=$T/figures
 
 # value SET METHOD ROW COLUMN, rows from 1, negative ones from the end
 value() {
@@ -65,7 +59,7 @@ within 'bounce, verlet: energy' "$(value bounce-150 verlet -1 error_energy)" 0 \
 order() {
   awk -F ' *\\| *' -v m="$1" -v set="$2" '$2 ~ /^order/ {
       for (i = 3; i <= NF; i++) if ($i == set) c = i; next}
-    $2 == m && c {print $c; exit}' "$F/precision-orders.md"
+    $2 == m && c {print $c; exit}' "$T/figures/precision-orders.md"
 }
 orders() { # SET ORDER TOLERANCE METHOD...
   local method set=$1 low high
@@ -92,10 +86,6 @@ for method in merson verlet; do
   check "the reference's own error is stated" grep -q \
     '^# reference_error_time=[0-9.]*e-1[2-9]$' "$D/bounce-150/$method.tsv"
 done
-check 'table of work' grep -q '^| merson | [0-9]' "$F/precision-work.md"
-check 'charts' test -s "$F/precision-bounce-150-time-evaluations.svg" -a \
-  -s "$F/precision-rolling-steps-velocity-step.svg"
-
 # failures: the word in the data, a cross in the chart
 words() {
   "$B/precision" "$@" | awk -F '\t' '!/^#/ && $1 != "method" {print $NF}' |
@@ -109,14 +99,14 @@ check 'a line torn apart' test "$(words toda-open --method verlet \
   --step-rung 0.05 --step-rung 1e-4)" = 'lost ok '
 "$B/precision" bounce --method merson --step-rung 3 --step-rung 1e-4 \
   --step-rung 1e-5 >"$T/failed.tsv"
-gnuplot -c plots/precision/precision.gp "$T/failed.tsv" "$T/failed.svg" title step \
-  error_time step error
-check 'a failure is drawn' grep -q 'failed' "$T/failed.svg"
+if ((charts)); then
+  gnuplot -c plots/precision/precision.gp "$T/failed.tsv" "$T/failed.svg" \
+    title step error_time step error
+  check 'a failure is drawn' grep -q 'failed' "$T/failed.svg"
+fi
 
 for arguments in '' bounce '--rung 1e-3 bounce' 'nosuch --rung 1e-3' \
   'bounce --rung 0x' 'bounce --method msbdf --step-rung 1e-3' 'bounce --method verlet --rung 1'; do
   "$B/precision" $arguments >/dev/null 2>"$T/err"
   check "precision $arguments: exit status" test $? = 2
 done
-
-check_done

@@ -1,23 +1,9 @@
-#!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Whole beds and trajectories at their reduced size (QUICK=1): what the pages
-# docs/precision.md and docs/stability.md say of them must be in the data, and
-# the scripts that count it must count right. Run from the root of the
-# repository; B is the directory of the programs.
-. tests/harness.sh
-
+# A part of tests/test_figures.sh: make settling seeds trajectories stability-map
+# stability-wrong-bed stability-vibration. What docs/precision.md and
+# docs/stability.md say of whole beds and trajectories must be in the data, and
+# the scripts that count it must count right.
 D=$T/data
-targets='settling seeds trajectories stability-map stability-wrong-bed
-  stability-vibration'
-# shellcheck disable=SC2086 # several words
-check 'make QUICK=1' make -s QUICK=1 B="$B" D="$D" F="$T/figures" \
-  $targets >"$T/log" 2>&1 ||
-  cat "$T/log"
-for figure in precision-{settling,horizon} \
-  precision-trajectory-8-position-evaluations \
-  stability-{map,wrong-bed,vibration}; do
-  check "$figure.svg is a picture" grep -q '</svg>' "$T/figures/$figure.svg"
-done
 
 # cell FILE CONDITION COLUMN: of the row where a condition on c("NAME") holds
 cell() {
@@ -184,5 +170,3 @@ last() { awk 'END { print $3 }' "$D/beds/vibration/$1.tsv"; }
 for run in 500-rkc 500-merson; do
   within "vibration: $run at 2 s" "$(last $run)" 0 0.01
 done
-
-check_done
