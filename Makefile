@@ -125,7 +125,7 @@ deps: ## install the Debian packages (as root, or with sudo)
 	  $$sudo apt-get install -y --no-install-recommends $(DEBIAN_PACKAGES); \
 	fi
 
-demo: all ## settle 200 spheres, print the packing fraction, draw the bed
+demo: all ## settle 200 spheres, print the solid fraction, draw the bed
 	$(B)/settle --seed 1 > $(B)/demo.tsv.partial
 	@mv $(B)/demo.tsv.partial $(B)/demo.tsv
 	$(B)/analyze $(B)/demo.tsv

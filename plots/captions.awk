@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Puts what stands in docs/NAME.md between a page's lines
+# Puts the contents of docs/NAME.md between a page's lines
 #   <!-- docs/NAME.md --> ... <!-- end -->
 # so that a caption is written once, beside its figure: awk -f plots/captions.awk
 # README.md. Links of a caption are from docs/; in a page elsewhere they get

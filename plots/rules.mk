@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What the figures and tables of all studies share. plots/ has a folder for each
-# study: its .mk (which program with which arguments makes the data), its awk
-# and shell scripts, and the gnuplot script of each figure, named as the figure.
-# A figure is two rules, data and picture. Data are one file a run under
+# Variables and rules that the figures and tables of all studies share. plots/
+# has a folder for each study: its .mk (which program with which arguments makes
+# the data), its awk and shell scripts, and the gnuplot script of each figure,
+# named as the figure.
+# A figure is two rules, data and picture. Data are one file per run under
 # build/data, so that a stopped make goes on where it was; charts and tables are
 # under build/figures. QUICK=1: all of it small, in directories of its own.
 # A variable is assigned once, in one file (tests/test_make.sh).

@@ -21,13 +21,13 @@ fig-gr: $(F)/gr.svg ## pair correlation of the frictionless bed and the full mod
 $(F)/gr.svg: plots/beds/gr.gp plots/style.gp $(D)/structure/gr.tsv
 	$(draw)
 
-structure: $(F)/structure.md ## contacts and order, means over 10 beds a model
+structure: $(F)/structure.md ## contacts and order, means over 10 beds per model
 	@cat $<
 $(F)/structure.md: plots/beds/structure.sh $(B)/analyze $(STRUCTURE_BEDS)
 	@mkdir -p $(@D)
 	B=$(B) $< $(D)/structure $(STRUCTURES) > $@
 
-# The radius of the geometry is a choice; what each makes of the paper's fraction
+# The radius of the geometry is a choice; the effect of each on the paper's fraction
 $(D)/radius/%.tsv: $(D)/structure/%.bed | $(B)/analyze
 	@mkdir -p $(@D)
 	$(B)/analyze radius --report $(BOX) $< > $@

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Markdown table: means over the beds of each variant, with standard errors, of
-# what analyze contacts and analyze order say.
+# the columns of analyze contacts and analyze order.
 #   B=build plots/beds/structure.sh DIRECTORY VARIANT...   DIRECTORY/VARIANT-SEED.bed
 set -e -o pipefail
 B=${B:-build}

@@ -1,11 +1,11 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What the walls do to beds: plots/beds/walls.sh profile|size BED...
+# The effect of walls on beds: plots/beds/walls.sh profile|size BED...
 # BED is named .../BASE-SEED.bed, BASE the side of its box in m, or
 # .../rotation-SEED.bed, the paper's bed of 200 spheres. Each is taken with the
 # radius of its dynamics and with that of contact-mean; means over the seeds.
 #   profile: base, keep, wall (distance from the side walls), union, at 0.4 to
-#     2 m over the floor; a block for each base and radius
+#     2 m over the floor; one block per base and radius
 #   size: base, keep, region, seeds, side, union, standard error; at the same
 #     heights the whole section, and inner: further than 0.4 m from the side
 #     walls; paper: the unit cube

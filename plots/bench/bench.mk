@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Benchmarks: never part of the tests, since machines are shared. Every speed
-# stands beside the fraction it was had at. `make bench-clean` forgets the runs.
+# stands beside the fraction that it gave. `make bench-clean` forgets the runs.
 BENCH := $(D)/bench
 
 # Methods by name: what settle is told, and the seeds that are run. The paper's
-# own way, every pair twice, takes minutes a seed for the full model.
+# own way, every pair twice, takes minutes per seed for the full model.
 BENCH_METHODS := allpairs merson dopri5 rkf45 rk8pd rkc verlet
 BENCH_allpairs := --pairs all --method merson
 BENCH_merson := --method merson
@@ -59,7 +59,7 @@ $(BENCH)/peers.tsv: plots/bench/peers/peers.sh | $(B)/settle $(B)/analyze
 	B=$(B) $(if $(QUICK),$(PEERS_QUICK)) $< > $@
 $(F)/peers.md: $(BENCH)/peers.tsv
 
-bench-clean: ## forget the benchmarks' runs
+bench-clean: ## remove the data of the benchmarks
 	rm -rf $(BENCH)
 
 .PHONY: bench bench-peers bench-clean

@@ -39,7 +39,7 @@ $(F)/fig4.4.svg: plots/paper/fig4.4.gp plots/style.gp \
   $(VARIANTS:%=$(D)/paper/%.log)
 	$(draw)
 
-# Volume fraction over time, 10 seeds a variant. The paper does not print its
+# Volume fraction over time, 10 seeds per variant. The paper does not print its
 # second friction coefficient; 0.1 is our assumption.
 ENSEMBLES := basic friction rotation-0.2 rotation-0.1
 OPTIONS_basic := --model basic
@@ -63,7 +63,7 @@ $(D)/$(1)/ranges.tsv: plots/paper/ranges.awk \
 	done > $$@
 endef
 $(eval $(call fraction_runs,fraction,$(PAPER)))
-fig4.3: $(F)/fig4.3.svg ## fraction in [0,1]^3 over time, 10 seeds a variant
+fig4.3: $(F)/fig4.3.svg ## fraction in [0,1]^3 over time, 10 seeds per variant
 $(F)/fig4.3.svg: plots/paper/fig4.3.gp plots/style.gp $(D)/fraction/ranges.tsv
 	$(draw)
 

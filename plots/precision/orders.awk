@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What a kink costs: the order that is observed at fixed steps, and the share of
-# adaptive steps that are rejected at a tolerance of 1e-6. Sets come as pairs
-# SET.tsv, by tolerance, and SET-steps.tsv, by step. The order is the slope of a
+# The cost of a kink: the order that is observed at fixed steps, and the share
+# of adaptive steps that are rejected at a tolerance of 1e-6. Sets come as two
+# files, SET.tsv by tolerance and SET-steps.tsv by step. The order is the slope of a
 # straight line through the logarithms of the errors, down to the least and of
 # those the last four that are at least four times it, since it may be
 # rounding.
-# A row a method, a column a set.
+# One row per method, one column per set.
 #   awk -f orders.awk SET.tsv... SET-steps.tsv... > TABLE.md
 BEGIN {
   FS = "\t"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Work-precision charts of small scenes: every stepper over a ladder of
-# tolerances, verlet over fixed steps. Data are one file a run (set x method)
+# tolerances, verlet over fixed steps. Data are one file per run (set x method)
 # under build/data/precision; a set's runs make one chart for each of its errors
 # and each kind of cost. QUICK=1: fewer rungs, sets and charts. Other .mk files
 # add what they chart by a line `precision: TARGET`.
@@ -104,7 +104,7 @@ LAWS := exponential exponential-inelastic spring walton-braun
 $(foreach l,$(LAWS),$(eval STEP_$(l) := 6.4e-3)\
   $(eval ERRORS_$(l) := gap)$(eval ORDERS_$(l) := 2 5 8))
 
-# The same with fixed steps for all: what order is left
+# The same with fixed steps for all: the order that is left
 STEPPED := rolling transition $(LAWS)
 define stepped_set
 SET_$(1)-steps := $$(SET_$(1))

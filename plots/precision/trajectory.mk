@@ -25,7 +25,7 @@ METHODS_trajectory-8-basic := $(METHODS_trajectory-8)
 METHODS_trajectory-200 := $(TRAJECTORY_METHODS)
 METHODS_trajectory-200-basic := $(TRAJECTORY_METHODS)
 $(call precision_rules,$(TRAJECTORIES))
-trajectories: $(call precision_charts,$(TRAJECTORIES)) ## where falling spheres are, against work; and how long that is determined
+trajectories: $(call precision_charts,$(TRAJECTORIES)) ## error of falling spheres against work, and its growth over time
 
 # Distance of runs from a sharp one over time, and of two sharp ones from each
 # other. Beds of settle, whose frames are interpolated between steps.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What became of beds over tolerance, kappa and variant: beds by
+# Outcomes of beds over tolerance, kappa and variant: beds by
 # plots/beds/beds.mk. Softer spheres reach further: the cut at lmax grows as
 # kappa falls, so that its jump stays below 5e-4 N.
 MAP_KAPPAS := $(if $(QUICK),150 500,30 60 150 300 500 1000)
@@ -33,7 +33,7 @@ MAP_RUNS := $(sort $(MAP_BASIC) \
 # several times what those take that end
 $(MAP_BASIC): export LIMIT := 8
 
-stability-map: $(F)/stability-map.svg ## what became of beds by tolerance, kappa and variant
+stability-map: $(F)/stability-map.svg ## outcomes of beds by tolerance, kappa and variant
 $(BEDS)/map.tsv: plots/stability/map.sh plots/stability/map.mk $(MAP_RUNS)
 	$< $(MAP_RUNS) > $@
 $(F)/stability-map.svg: plots/stability/map.gp plots/style.gp $(BEDS)/map.tsv

@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What became of beds: a row a cell of the map, from rows of plots/beds/bed.sh.
+# Outcomes of beds: one row per cell of the map, from rows of plots/beds/bed.sh.
 #   map.sh ROW... > MAP
 # A cell is a panel (model, method; -free without the limit by travel, -short
 # with lmax = 0.1 m for soft spheres as well), a tolerance or step, and kappa; of its seeds it shows the worst outcome:

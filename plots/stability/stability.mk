@@ -31,7 +31,7 @@ $(foreach m,$(EMBEDDED) rkc,$(foreach t,0 1,$(eval $(call stability_run,\
   tunnel-$(m)-$(t),tunnel --method $(m) --travel $(t) --runs $(if $(QUICK),4,50)))))
 $(STABILITY_DATA)/tunnel.tsv: $(TUNNEL_RUNS:%=$(STABILITY_DATA)/%.tsv)
 	$(call stability_merge,$^) > $@
-stability-tunnel: $(addprefix $(F)/stability-,tunnel.svg tunnel.md) ## fast spheres out of free flight: who misses
+stability-tunnel: $(addprefix $(F)/stability-,tunnel.svg tunnel.md) ## share of collisions missed out of free flight, by method
 $(F)/stability-tunnel.svg: plots/stability/tunnel.gp plots/style.gp \
   $(STABILITY_DATA)/tunnel.tsv
 	$(draw)
@@ -40,7 +40,7 @@ $(STABILITY_DATA)/outcomes.tsv: plots/stability/outcomes.awk \
 	awk -f $^ > $@
 $(F)/stability-tunnel.md: $(STABILITY_DATA)/outcomes.tsv
 
-# Energy, at equal cost: evaluations a bounce, and a second of the box
+# Energy, at equal cost: evaluations per bounce, and per second of the box
 DRIFT_METHODS := $(EMBEDDED) rkc verlet
 $(foreach m,$(DRIFT_METHODS),$(eval $(call stability_run,drift-bounce-$(m),\
   drift --method $(m) --cost 3000 --units $(if $(QUICK),30,1000))))

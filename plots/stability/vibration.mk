@@ -22,7 +22,7 @@ endef
 $(foreach r,$(VIBRATION_RUNS),$(eval $(call vibration_run,$(r))))
 $(VIBRATION).tsv: $(VIBRATION_RUNS:%=$(VIBRATION)/%.tsv)
 	awk 'FNR == 1 && NR > 1 { print "\n" } 1' $^ > $@
-stability-vibration: $(F)/stability-vibration.svg ## does kappa = 500 vibrate: kinetic energy over time
+stability-vibration: $(F)/stability-vibration.svg ## kinetic energy over time by kappa: does 500 vibrate?
 $(F)/stability-vibration.svg: plots/stability/vibration.gp plots/style.gp \
   $(VIBRATION).tsv
 	$(draw)

@@ -8,7 +8,7 @@ WRONG_EXTRA := \
   $(foreach m,rkck rk8pd,$(foreach t,10 0.1,\
     $(call bed_runs,$(FULL)/method-$(m)/tol-$(t),0,1)))
 WRONG_BEDS := $(SETTLING_FULL) $(if $(QUICK),,$(WRONG_EXTRA))
-stability-wrong-bed: $(F)/stability-wrong-bed.svg ## where friction integrated badly melts the bed
+stability-wrong-bed: $(F)/stability-wrong-bed.svg ## at which step or tolerance friction melts the bed
 $(BEDS)/wrong.tsv: plots/precision/settling.awk plots/stability/wrong-bed.mk \
   $(WRONG_BEDS)
 	awk -f $< $(WRONG_BEDS) > $@
