@@ -76,7 +76,11 @@ $(B)/$(1): $(patsubst %.c,$(O)/%.o,$(wildcard $(1)/*.c)) $(LIBRARY)
 endef
 $(foreach p,$(PROGRAMS),$(eval $(call program_rule,$(p))))
 
-$(O)/analyze/picture.o: ALL_CFLAGS += -DPLOTS_SOURCE='"$(CURDIR)/plots/draw"'
+# Where analyze finds what it draws with, as long as it is not installed.
+$(B)/analyze: | $(B)/plots
+$(B)/plots:
+	ln -s "$(CURDIR)/plots/draw" $@
+
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 
 # Tests: every tests/test_*.c is a program, every tests/test_*.sh a script; each

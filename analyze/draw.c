@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* draw: one frame as shaded balls in their box, by gnuplot. */
 #include <math.h>
-#include <stdlib.h>
 #include "frames.h"
 #include "picture.h"
 #include "verbs.h"
@@ -60,9 +59,8 @@ int verb_draw(int argc, char **argv) {
   bed_free(&bed);
   frames_close(&frames);
 
-  char *drawn = picture_path(&picture, svg ? "bed.svg" : "bed.png");
+  const char *drawn = picture_path(&picture, svg ? "bed.svg" : "bed.png");
   picture_draw(&picture, "bed.tsv", drawn);
   picture_deliver(&picture, drawn);
-  free(drawn);
   return EXIT_DONE;
 }

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* export: beds in the formats of other programs. */
 #define _POSIX_C_SOURCE 200809L
-#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -370,7 +369,6 @@ int verb_export(int argc, char **argv) {
       .example = "settle | analyze export --format vtp > bed.vtp",
       .options = options};
   const int operand = options_parse(&program, argc, argv);
-  signal(SIGXFSZ, SIG_IGN); /* a file too large is an error of its write */
   if (!format)
     die(EXIT_USAGE, "--format: expected what to write; see --help");
   for (q.format = formats; strcmp(q.format->name, format);)

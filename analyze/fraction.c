@@ -151,7 +151,7 @@ int verb_fraction(int argc, char **argv) {
           "Share of a box that the spheres fill, one row per frame: time (s),\n"
           "sum of the volumes of the clipped spheres and volume of their\n"
           "union, each divided by that of the box. With many boxes or slabs\n"
-          "an empty line separates frames.\n" VERBS_HELP,
+          "an empty line separates frames.",
       .usage = "[fraction] [OPTION...] [FILE]",
       .example = "settle --model basic --seed 3 | analyze",
       .options = options};

@@ -20,15 +20,13 @@ static size_t read_frames(struct frames *frames, struct picture *picture) {
   return count;
 }
 
-static void draw_frames(const struct picture *picture, size_t count,
-                        bool quiet) {
+static void draw_frames(struct picture *picture, size_t count, bool quiet) {
   for (size_t k = 0; k < count; k++) {
     char data[32], name[32];
     snprintf(data, sizeof data, "%zu.tsv", k);
     snprintf(name, sizeof name, "%zu.png", k);
-    char *drawn = picture_path(picture, name);
+    const char *drawn = picture_path(picture, name);
     picture_draw(picture, data, drawn);
-    free(drawn);
     if (!quiet)
       fprintf(stderr, "\ranalyze: %zu of %zu frames drawn", k + 1, count);
   }
@@ -80,9 +78,10 @@ int verb_movie(int argc, char **argv) {
   frames_close(&frames);
   draw_frames(&picture, count, input.quiet || !isatty(STDERR_FILENO));
 
-  char *made = picture_path(&picture, gif                       ? "movie.gif"
-                                      : ends_in(output, ".mp4") ? "movie.mp4"
-                                                                : "movie.webm");
+  const char *made =
+      picture_path(&picture, gif                       ? "movie.gif"
+                             : ends_in(output, ".mp4") ? "movie.mp4"
+                                                       : "movie.webm");
   char number[32], numbers[32];
   if (gif) {
     char *script = picture_script("movie.gp");
@@ -93,15 +92,13 @@ int verb_movie(int argc, char **argv) {
     picture_run(&picture, "gnuplot-nox", argv_gif);
     free(script);
   } else {
-    char *pictures = picture_path(&picture, "%d.png");
+    const char *pictures = picture_path(&picture, "%d.png");
     snprintf(number, sizeof number, "%.9g", rate);
     const char *const argv_video[] = {"ffmpeg",  "-v", "error",  "-framerate",
                                       number,    "-i", pictures, "-pix_fmt",
                                       "yuv420p", made, NULL};
     picture_run(&picture, "ffmpeg", argv_video);
-    free(pictures);
   }
   picture_deliver(&picture, made);
-  free(made);
   return EXIT_DONE;
 }

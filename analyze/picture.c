@@ -2,11 +2,9 @@
 #define _POSIX_C_SOURCE 200809L
 #include "picture.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
-#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
@@ -14,6 +12,8 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include "measure.h"
+#include "platform/system.h"
+#include "program/litter.h"
 #include "geometry/neighbors.h"
 
 const char *const picture_colors[] = {"height",   "speed", "radius",
@@ -33,20 +33,12 @@ bool ends_in(const char *name, const char *ending) {
   return n > e && !strcmp(name + n - e, ending);
 }
 
-/* The scratch directory. */
+/* The scratch directory and what is in it go with the program. */
 
-static char *scratch; /* for atexit */
-
-static void remove_scratch(void) {
-  DIR *directory = opendir(scratch);
-  if (!directory)
-    return;
-  for (struct dirent *e; (e = readdir(directory));)
-    if (strcmp(e->d_name, ".") && strcmp(e->d_name, ".."))
-      unlinkat(dirfd(directory), e->d_name, 0);
-  closedir(directory);
-  rmdir(scratch);
-}
+struct scratch_file {
+  char *path;
+  struct scratch_file *next;
+};
 
 void picture_begin(struct picture *p, const char *output) {
   if (!(p->view.at[1] >= 0 && p->view.at[1] <= 90) ||
@@ -59,40 +51,48 @@ void picture_begin(struct picture *p, const char *output) {
   if (output)
     output_open(&p->file, output);
   const char *place = getenv("TMPDIR");
-  p->scratch = scratch =
-      joined(place && *place ? place : "/tmp", "/dem-XXXXXX", "");
-  if (!mkdtemp(scratch))
-    die(EXIT_IO, "%s: %s", scratch, strerror(errno));
-  atexit(remove_scratch);
+  p->scratch = joined(place && *place ? place : "/tmp", "/dem-XXXXXX", "");
+  if (!mkdtemp(p->scratch))
+    die(EXIT_IO, "%s: %s", p->scratch, strerror(errno));
+  litter_add(p->scratch);
 }
 
-char *picture_path(const struct picture *p, const char *name) {
-  return joined(p->scratch, "/", name);
+const char *picture_path(struct picture *p, const char *name) {
+  const size_t directory = strlen(p->scratch) + 1;
+  struct scratch_file *f;
+  for (f = p->files; f; f = f->next)
+    if (!strcmp(f->path + directory, name))
+      return f->path;
+  f = malloc(sizeof *f);
+  if (!f)
+    die(EXIT_IO, "out of memory");
+  *f = (struct scratch_file){joined(p->scratch, "/", name), p->files};
+  p->files = f;
+  litter_add(f->path);
+  return f->path;
 }
 
 char *picture_script(const char *name) {
-  static const char from_bin[] = "/../share/dem/plots/";
+  /* from the program: where it is installed, and where it was built */
+  static const char *const places[] = {"/../share/dem/plots/", "/plots/"};
   const char *set = getenv("DEM_PLOTS");
   if (set && *set)
     return joined(set, "/", name);
   char program[4096];
-  const ssize_t length =
-      readlink("/proc/self/exe", program, sizeof program - 1);
-  if (length > 0) {
-    program[length] = 0;
-    *strrchr(program, '/') = 0;
-    char *installed = joined(program, from_bin, name);
-    if (access(installed, R_OK) == 0)
-      return installed;
-    free(installed);
+  if (!system_program(program, sizeof program))
+    *program = 0;
+  char *slash = strrchr(program, '/');
+  for (size_t k = 0; slash && k < sizeof places / sizeof *places; k++) {
+    *slash = 0;
+    char *script = joined(program, places[k], name);
+    if (access(script, R_OK) == 0)
+      return script;
+    free(script);
   }
-  char *built = joined(PLOTS_SOURCE, "/", name);
-  if (access(built, R_OK) != 0)
-    die(EXIT_IO,
-        "%s: not found, nor in share/dem/plots beside the program: expected "
-        "its directory in DEM_PLOTS",
-        built);
-  return built;
+  die(EXIT_IO,
+      "%s: not found in share/dem/plots beside the program: expected its "
+      "directory in DEM_PLOTS",
+      name);
 }
 
 /* What is drawn. */
@@ -216,9 +216,8 @@ static bool *find_seen(const struct picture *p, const struct bed *b) {
   return seen;
 }
 
-void picture_write(const struct picture *p, const struct bed *b,
-                   const char *name) {
-  char *path = picture_path(p, name);
+void picture_write(struct picture *p, const struct bed *b, const char *name) {
+  const char *path = picture_path(p, name);
   FILE *out = fopen(path, "w");
   if (!out)
     die(EXIT_IO, "%s: %s", path, strerror(errno));
@@ -233,7 +232,6 @@ void picture_write(const struct picture *p, const struct bed *b,
     die(EXIT_IO, "%s: %s", path, strerror(errno));
   free(seen);
   free(value);
-  free(path);
 }
 
 /* Programs that draw. */
@@ -256,15 +254,8 @@ void picture_run(const struct picture *p, const char *package,
   if (!said)
     die(EXIT_IO, "%s: %s", p->scratch, strerror(errno));
   fflush(stdout);
-  /* an interrupt ends it, and then us, with nothing left in scratch */
-  struct sigaction ignore = {.sa_handler = SIG_IGN}, interrupt, quit;
-  sigaction(SIGINT, &ignore, &interrupt);
-  sigaction(SIGQUIT, &ignore, &quit);
   const pid_t child = fork();
   if (child == 0) {
-    sigaction(SIGINT, &interrupt, NULL);
-    sigaction(SIGQUIT, &quit, NULL);
-    signal(SIGPIPE, SIG_DFL);
     const int none = open("/dev/null", O_RDWR);
     if (none < 0 || dup2(none, STDIN_FILENO) < 0 ||
         dup2(fileno(said), STDOUT_FILENO) < 0 ||
@@ -274,10 +265,10 @@ void picture_run(const struct picture *p, const char *package,
     _exit(errno == ENOENT ? 127 : 126);
   }
   int status = 0;
+  litter_child(child); /* a signal ends it, and then us */
   while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR)
     ;
-  sigaction(SIGINT, &interrupt, NULL);
-  sigaction(SIGQUIT, &quit, NULL);
+  litter_child(0);
   char text[200];
   first_line(said, text, sizeof text);
   fclose(said);
@@ -292,8 +283,7 @@ void picture_run(const struct picture *p, const char *package,
     die(EXIT_IO, "%s: %s", argv[0], *text ? text : "failed");
 }
 
-void picture_draw(const struct picture *p, const char *name,
-                  const char *output) {
+void picture_draw(struct picture *p, const char *name, const char *output) {
   static const char *const labels[] = {"height (m)", "speed (m/s)",
                                        "radius (m)", "touching spheres", "id"};
   int c = 0;
@@ -321,14 +311,14 @@ void picture_draw(const struct picture *p, const char *name,
            p->view.at[0], p->view.at[1], b[0], b[2], b[4], size[0], size[1],
            size[2], 0.03 * fmax(size[0], size[1]), low, high, labels[c],
            p->facets, p->half_size ? 1 : 2);
-  char *script = picture_script("bed.gp"), *data = picture_path(p, name);
+  char *script = picture_script("bed.gp");
+  const char *data = picture_path(p, name);
   const char *const argv[] = {"gnuplot", "-e", set,    "-c",
                               script,    data, output, NULL};
   picture_run(p, "gnuplot-nox", argv);
   if (access(output, R_OK) != 0)
     die(EXIT_IO, "gnuplot: it made no picture");
   free(script);
-  free(data);
 }
 
 void picture_deliver(struct picture *p, const char *path) {

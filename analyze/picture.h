@@ -15,6 +15,7 @@ struct picture {
   size_t facets;           /* of all balls together, about */
   bool half_size;          /* 640 x 480 pixels */
   char *scratch;           /* directory */
+  struct scratch_file *files;
   struct output_file file; /* what is made, or standard output */
   double box[6];           /* x0 x1 y0 y1 z0 z1 (m), grown by picture_measure */
   bool fixed[6];           /* a wall of the scene */
@@ -37,20 +38,18 @@ extern const char *const picture_colors[];
    output, whole or not at all, or standard output for NULL. */
 void picture_begin(struct picture *p, const char *output);
 
-/* A path in the scratch directory; the caller frees it. */
-char *picture_path(const struct picture *p, const char *name);
+/* A path in the scratch directory, which lives as long as the program. */
+const char *picture_path(struct picture *p, const char *name);
 
 /* Takes a frame into the ranges of box and colours, and writes it, as far as
    it can be seen, to a file of the scratch directory. Frames of one number are
    written over. */
 void picture_measure(struct picture *p, const struct bed *b,
                      const struct bed_header *h);
-void picture_write(const struct picture *p, const struct bed *b,
-                   const char *name);
+void picture_write(struct picture *p, const struct bed *b, const char *name);
 
 /* Draws what picture_write wrote; output ends in .png or .svg. */
-void picture_draw(const struct picture *p, const char *name,
-                  const char *output);
+void picture_draw(struct picture *p, const char *name, const char *output);
 
 /* Runs a program of the search path and waits; a failure is an error with the
    first line of what it said. package is what Debian calls it. */
@@ -58,7 +57,7 @@ void picture_run(const struct picture *p, const char *package,
                  const char *const argv[]);
 
 /* The path of one of our gnuplot scripts: in $DEM_PLOTS, in ../share/dem/plots
-   beside the program's directory, or where the program was built. */
+   of the program's directory, or in plots of it, where it was built. */
 char *picture_script(const char *name);
 
 /* Whether a name has this ending. */

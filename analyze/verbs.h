@@ -22,7 +22,4 @@
 #define VERB_FUNCTION(name, what) int verb_##name(int argc, char **argv);
 VERBS(VERB_FUNCTION)
 
-#define VERB_LINE(name, what) "\n  " #name ": " what
-#define VERBS_HELP "Verbs, each with a --help of its own:" VERBS(VERB_LINE)
-
 #endif

@@ -1,14 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* stability: where methods fail. The first argument names a study. */
 #include <stdio.h>
-#include <string.h>
 #include "verbs.h"
+#include "program/verbs.h"
 #include "program/version.h"
 
-static const struct {
-  const char *name, *summary;
-  int (*run)(int argc, char **argv);
-} verbs[] = {
+static const struct verb table[] = {
     {"limits", "largest stable step of each method on two contacts",
      verb_limits},
     {"regions", "the methods' stability functions in the complex plane",
@@ -17,10 +14,8 @@ static const struct {
      verb_tunnel},
     {"drift", "energy over a thousand bounces, or in a closed box", verb_drift},
     {"creep", "what friction lets creep below the friction angle", verb_creep},
-    {"cut", "the floor that the cut at lmax puts under the accuracy",
-     verb_cut}};
-
-enum { VERBS = sizeof verbs / sizeof *verbs };
+    {"cut", "the floor that the cut at lmax puts under the accuracy", verb_cut},
+    {NULL, NULL, NULL}};
 
 void verb_begin(const struct program *p, int argc, char **argv) {
   char text[256];
@@ -36,19 +31,10 @@ void verb_begin(const struct program *p, int argc, char **argv) {
 }
 
 int main(int argc, char **argv) {
-  for (size_t i = 0; argc > 1 && i < VERBS; i++)
-    if (!strcmp(argv[1], verbs[i].name)) {
-      const int code = verbs[i].run(argc - 1, argv + 1);
-      finish_output();
-      return code;
-    }
-  const bool help = argc > 1 && !strcmp(argv[1], "--help");
-  FILE *out = help ? stdout : stderr;
-  fputs("usage: stability VERB [OPTION...]; --help after a verb tells more\n",
-        out);
-  for (size_t i = 0; i < VERBS; i++)
-    fprintf(out, "  %-8s %s\n", verbs[i].name, verbs[i].summary);
-  if (help)
-    finish_output();
-  return help ? EXIT_DONE : EXIT_USAGE;
+  const struct verbs verbs = {.program = "stability",
+                              .summary = "Where methods fail, a verb a study.",
+                              .at = table};
+  const int code = verbs_run(&verbs, argc, argv);
+  finish_output();
+  return code;
 }

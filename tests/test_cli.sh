@@ -160,10 +160,10 @@ refuse 'msbdf with fixed steps' 2 'msbdf' \
   settle --count 2 --method msbdf --step 0.001
 for program in settle bounce; do
   refuse "$program: verlet without a step" 2 \
-    '^'$program': --method verlet: expected a fixed --step$' \
+    '^'$program': --method verlet: expected a fixed --step \(try' \
     $program --method verlet
   refuse "$program: msbdf with fixed steps" 2 \
-    '^'$program': --method msbdf: has no fixed step$' \
+    '^'$program': --method msbdf: has no fixed step \(try' \
     $program --method msbdf --step 0.001
 done
 
@@ -237,7 +237,7 @@ lists() { # PROGRAM OPTION...
   local program=$1 option
   for option in "${@:2}"; do
     check "$program --help lists --$option" \
-      grep -q -e "^  --$option " "$T/out"
+      grep -Eq -e "^  (-h, )?--$option " "$T/out"
   done
 }
 for p in settle bounce analyze; do
@@ -286,8 +286,7 @@ closed() { # NAME PROGRAM ARGUMENT...
   local name=$1 program=$2
   timeout 20 "$B/$program" "${@:3}" 2>"$T/err" | true
   status=${PIPESTATUS[0]}
-  : >"$T/out"
-  judge "$name, closed pipe" "$program" 1 'standard output: .*pipe'
+  check "$name, closed pipe: quietly" test $status = 1 -a ! -s "$T/err"
 }
 closed settle settle --count 8 --model basic --time 0.2 --frames 2000
 closed bounce bounce --time 1 --samples 20000

@@ -68,11 +68,11 @@ report "$paths paths found in the pages" $?
 options_of() { # PROGRAM [VERB]: its options, a line each
   local help=$T/help-${1##*/}-${2-}
   [ -e "$help" ] ||
-    "$B/$1" ${2+"$2"} --help 2> /dev/null | grep -oE -- '^  --[a-z-]+' |
-    tr -d ' ' > "$help"
+    "$B/$1" ${2+"$2"} --help 2> /dev/null | grep -oE -- '^  (-h, )?--[a-z-]+' |
+    grep -o -- '--.*' > "$help"
   cat "$help"
 }
-verbs=$("$B/analyze" --help | sed -n 's/^  \([a-z]*\): .*/\1/p')
+verbs=$("$B/analyze" --complete | grep -v '^--')
 ((${#verbs} > 0))
 report 'analyze --help lists no verbs' $?
 make -s "$B/precision" "$B/stability" B="$B" > "$T/log" 2>&1

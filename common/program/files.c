@@ -1,86 +1,222 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#define _POSIX_C_SOURCE 200809L
+#define _XOPEN_SOURCE 700
 #include "program/files.h"
 
-#include <stdbool.h>
 #include <errno.h>
+#include <fcntl.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include "program/options.h"
+#include "program/litter.h"
+#include "program/messages.h"
 
-/* Files begun and not committed go when the program does. */
-static char *begun[8];
-
-/* A folder that was made: no more than empty, it goes too. */
-static const char *made;
-
-static void remove_begun(void) {
-  for (size_t i = 0; i < sizeof begun / sizeof *begun; i++)
-    if (begun[i])
-      unlink(begun[i]);
-  if (made)
-    rmdir(made);
+static void *need(void *memory) {
+  if (!memory)
+    die(EXIT_IO, "out of memory");
+  return memory;
 }
 
-static void remember(char *path) {
-  static bool registered;
-  if (!registered)
-    atexit(remove_begun);
-  registered = true;
-  for (size_t i = 0; i < sizeof begun / sizeof *begun; i++)
-    if (!begun[i]) {
-      begun[i] = path;
-      return;
+/* Files in use: the regular ones by device and inode, outputs by the path that
+   they will have as well. */
+struct use {
+  const char *name; /* as the user has it; NULL: over */
+  bool output;
+  dev_t device;
+  ino_t inode; /* 0: not there yet */
+  const char *path;
+};
+static struct use *uses;
+static size_t use_count;
+
+static bool same(const struct use *a, const struct use *b) {
+  return (a->inode && a->inode == b->inode && a->device == b->device) ||
+         (a->path && b->path && !strcmp(a->path, b->path));
+}
+
+/* Exits if the file is in use, unless by others that read it as well. */
+static void claim(struct use new) {
+  struct use *place = NULL;
+  for (struct use *u = uses; u < uses + use_count; u++)
+    if (!u->name)
+      place = u;
+    else if (same(u, &new) && (u->output || new.output))
+      die(EXIT_USAGE, "%s: expected another file, this one is %s%s", new.name,
+          u->output ? "written to" : "read from",
+          !strcmp(u->name, new.name) ? " already" : " as well");
+  if (!place) {
+    uses = need(realloc(uses, (use_count + 1) * sizeof *uses));
+    place = &uses[use_count++];
+  }
+  *place = new;
+}
+
+static void claim_stream(const char *name, FILE *stream, bool output) {
+  struct stat st;
+  if (fstat(fileno(stream), &st) == 0 && S_ISREG(st.st_mode))
+    claim((struct use){name, output, st.st_dev, st.st_ino, NULL});
+}
+
+/* What standard output goes to is written, before anything else is opened. */
+static void claim_standard_output(void) {
+  static bool claimed;
+  if (!claimed)
+    claim_stream("standard output", stdout, true);
+  claimed = true;
+}
+
+static void unclaim(const char *path) {
+  for (struct use *u = uses; u < uses + use_count; u++)
+    if (u->path == path)
+      *u = (struct use){0};
+}
+
+/* Where a path's directory ends: the length with the last slash. */
+static size_t directory_length(const char *path) {
+  const char *slash = strrchr(path, '/');
+  return slash ? (size_t)(slash - path) + 1 : 0;
+}
+
+/* The first length characters of a and b, in memory of its own. */
+static char *joined(const char *a, size_t length, const char *b) {
+  char *text = need(malloc(length + strlen(b) + 1));
+  memcpy(text, a, length);
+  strcpy(text + length, b);
+  return text;
+}
+
+/* A path through links down to what is there, or may be there; NULL if it is a
+   door to an open file (/dev/stderr), which has no place to put another. */
+static char *follow(const char *path) {
+  enum { MOST_LINKS = 40 };
+  char *at = joined(path, strlen(path), ""), to[4096];
+  for (int k = 0;; k++) {
+    const ssize_t length = readlink(at, to, sizeof to - 1);
+    if (length < 0)
+      return at;
+    if (k == MOST_LINKS)
+      die(EXIT_IO, "%s: %s", path, strerror(ELOOP));
+    to[length] = 0;
+    char *next = joined(at, *to == '/' ? 0 : directory_length(at), to);
+    free(at);
+    at = next;
+    if (!strncmp(at, "/proc/", 6) || !strncmp(at, "/dev/fd/", 8)) {
+      free(at);
+      return NULL;
     }
+  }
 }
 
-static void forget(const char *path) {
-  for (size_t i = 0; i < sizeof begun / sizeof *begun; i++)
-    if (begun[i] == path)
-      begun[i] = NULL;
+/* With its directory written in the one way that is without links. */
+static char *canonical(const char *path) {
+  const size_t length = directory_length(path);
+  char *directory = joined(path, length, length ? "." : "./");
+  char *real = realpath(directory, NULL);
+  free(directory);
+  if (!real) /* opening it will say why */
+    return joined(path, strlen(path), "");
+  char *with_slash = joined(real, strlen(real), "/");
+  char *whole = joined(with_slash, strlen(with_slash), path + length);
+  free(real);
+  free(with_slash);
+  return whole;
+}
+
+static _Noreturn void cannot_write(const char *path) {
+  die(EXIT_IO, "%s: %s", path, strerror(errno));
+}
+
+/* Opens a new file beside the target, with the mode and owner of the one that
+   is to be replaced. */
+static void open_partial(struct output_file *f, const struct stat *old) {
+  char ending[48];
+  snprintf(ending, sizeof ending, ".partial-%ld", (long)getpid());
+  f->partial = joined(f->target, strlen(f->target), ending);
+  int fd = open(f->partial, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (fd < 0 && errno == EEXIST && unlink(f->partial) == 0) /* long dead */
+    fd = open(f->partial, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (fd < 0)
+    cannot_write(f->path);
+  litter_add(f->partial);
+  if (old) {
+    if (fchown(fd, old->st_uid, old->st_gid) != 0)
+      errno = 0; /* only root may; then it becomes ours */
+    if (fchmod(fd, old->st_mode & 0777) != 0)
+      cannot_write(f->path);
+  }
+  f->stream = fdopen(fd, "w");
 }
 
 void output_open(struct output_file *f, const char *path) {
   struct stat st;
   *f = (struct output_file){.path = path};
-  if (stat(path, &st) == 0 && !S_ISREG(st.st_mode)) {
+  if (!strcmp(path, "-"))
+    die(EXIT_USAGE, "-: expected the name of a file, such as /dev/stderr");
+  claim_standard_output();
+  const bool there = stat(path, &st) == 0;
+  if (!there || S_ISREG(st.st_mode))
+    f->target = follow(path);
+  if (!f->target) {
     f->stream = fopen(path, "w");
   } else {
-    const size_t size = strlen(path) + 32;
-    f->partial = malloc(size);
-    if (!f->partial)
-      die(EXIT_IO, "out of memory");
-    snprintf(f->partial, size, "%s.partial-%ld", path, (long)getpid());
-    f->stream = fopen(f->partial, "w");
+    char *real = canonical(f->target);
+    free(f->target);
+    f->target = real;
+    claim((struct use){path, true, there ? st.st_dev : 0, there ? st.st_ino : 0,
+                       f->target});
+    f->others = there ? st.st_nlink - 1 : 0;
+    if (!there || access(f->target, W_OK) == 0)
+      open_partial(f, there ? &st : NULL);
   }
   if (!f->stream)
-    die(EXIT_IO, "%s: %s", path, strerror(errno));
-  if (f->partial)
-    remember(f->partial);
+    cannot_write(path);
+}
+
+/* What was written is on the disk, as far as it has one. */
+static bool synchronize(FILE *stream) {
+  return fsync(fileno(stream)) == 0 || errno == EINVAL || errno == ENOTSUP;
+}
+
+static void synchronize_directory(const char *path) {
+  char *directory = joined(path, directory_length(path), ".");
+  const int fd = open(directory, O_RDONLY);
+  if (fd >= 0) {
+    fsync(fd); /* the file is whole with its old or its new name */
+    close(fd);
+  }
+  free(directory);
 }
 
 void output_commit(struct output_file *f) {
-  const int failed = ferror(f->stream);
-  const int closed = fclose(f->stream);
-  int error = errno;
-  if (!failed && closed == 0 &&
-      (!f->partial || rename(f->partial, f->path) == 0)) {
-    forget(f->partial);
-    free(f->partial);
-    free(f->joined);
+  const bool failed = ferror(f->stream);
+  bool done = fflush(f->stream) == 0 && !failed &&
+              (!f->partial || synchronize(f->stream));
+  const int error = errno;
+  if (fclose(f->stream) != 0)
+    done = false;
+  else if (!done)
+    errno = error;
+  if (!done || (f->partial && rename(f->partial, f->target) != 0))
+    cannot_write(f->path);
+  if (!f->partial)
     return;
-  }
-  if (!failed && closed == 0)
-    error = errno;
-  die(EXIT_IO, "%s: %s", f->path, strerror(error));
+  litter_forget(f->partial);
+  synchronize_directory(f->target);
+  if (f->others)
+    warn("%s: is a new file; %ju other name%s of the old one keep%s it",
+         f->path, f->others, f->others > 1 ? "s" : "",
+         f->others > 1 ? "" : "s");
+  unclaim(f->target);
+  free(f->partial);
+  free(f->target);
+  free(f->joined);
 }
 
 void output_folder(const char *path) {
   struct stat st;
   if (mkdir(path, 0777) == 0)
-    made = path;
+    litter_add(path); /* no more than fails once there is something in it */
   else if (errno != EEXIST)
     die(EXIT_IO, "%s: %s", path, strerror(errno));
   else if (stat(path, &st) == 0 && !S_ISDIR(st.st_mode))
@@ -89,26 +225,26 @@ void output_folder(const char *path) {
 
 void output_open_in(struct output_file *f, const char *folder,
                     const char *name) {
-  const size_t size = strlen(folder) + strlen(name) + 2;
-  char *path = malloc(size);
-  if (!path)
-    die(EXIT_IO, "out of memory");
-  snprintf(path, size, "%s/%s", folder, name);
+  char *with_slash = joined(folder, strlen(folder), "/");
+  char *path = joined(with_slash, strlen(with_slash), name);
+  free(with_slash);
   output_open(f, path);
   f->joined = path;
 }
 
 FILE *input_open(const char *path, const char **name) {
-  if (!path || !strcmp(path, "-")) {
-    *name = "standard input";
-    return stdin;
+  FILE *in = stdin;
+  *name = "standard input";
+  claim_standard_output();
+  if (path && strcmp(path, "-")) {
+    struct stat st;
+    *name = path;
+    in = fopen(path, "r");
+    if (!in)
+      die(EXIT_IO, "%s: %s", path, strerror(errno));
+    if (fstat(fileno(in), &st) == 0 && S_ISDIR(st.st_mode))
+      die(EXIT_IO, "%s: is a directory", path);
   }
-  *name = path;
-  FILE *in = fopen(path, "r");
-  struct stat st;
-  if (in && fstat(fileno(in), &st) == 0 && S_ISDIR(st.st_mode))
-    die(EXIT_IO, "%s: is a directory", path);
-  if (!in)
-    die(EXIT_IO, "%s: %s", path, strerror(errno));
+  claim_stream(*name, in, false);
   return in;
 }

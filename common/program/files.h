@@ -1,20 +1,30 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Files that appear whole or not at all. */
+/* Files that appear whole or not at all, and never over one in use. Tested in
+   tests/test_files.sh. */
 #ifndef FILES_H
 #define FILES_H
 
+#include <stdint.h>
 #include <stdio.h>
 
-/* Written beside its final name and renamed when complete; a path that is not
-   a regular file (a pipe, /dev/null) is written directly. */
+/* Written beside its final name and renamed when complete; what is not a
+   regular file (a pipe, /dev/null) is written directly. A symbolic link stays,
+   and what it points to is written; mode and, where we may, owner stay. A file
+   with several names (hard links) is not written through: the others keep what
+   they had, which is said. */
 struct output_file {
-  const char *path;
-  char *partial; /* NULL where written directly */
-  char *joined;  /* the path, where it is the file's own */
+  const char *path; /* as the user has it */
+  char *target;     /* where that leads to; NULL where written directly */
+  char *partial;    /* what is written */
+  uintmax_t others; /* names of the file that is replaced */
+  char *joined;     /* the path, where it is the file's own */
   FILE *stream;
 };
 
-/* Both exit with EXIT_IO and one line that names the file on failure. */
+/* Both exit on failure with one line that names the file: with EXIT_IO, or with
+   EXIT_USAGE if it is an input, another output not yet complete or what
+   standard output goes to. A complete file is on the disk before it has its
+   name. */
 void output_open(struct output_file *f, const char *path);
 void output_commit(struct output_file *f);
 
@@ -22,12 +32,13 @@ void output_commit(struct output_file *f);
    comes to be in it. Exits likewise. */
 void output_folder(const char *path);
 
-/* output_open of a file in a folder, at most 8 at a time. */
+/* output_open of a file in a folder. */
 void output_open_in(struct output_file *f, const char *folder,
                     const char *name);
 
-/* Opens FILE for reading, or standard input for "-" or NULL; exits with
-   EXIT_IO if it cannot be read. name becomes what messages call it. */
+/* Opens FILE for reading, or standard input for "-" or NULL; exits with EXIT_IO
+   if it cannot be read, with EXIT_USAGE if it is being written as above. name
+   becomes what messages call it. */
 FILE *input_open(const char *path, const char **name);
 
 #endif

@@ -1,58 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#define _POSIX_C_SOURCE 200809L
 #include "program/options.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <getopt.h>
 #include <math.h>
-#include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 #include <gsl/gsl_errno.h>
 #include "files/numbers.h"
-#include "program/version.h"
-
-static const char *program_name = "?"; /* set once, for messages */
-
-static void message(const char *format, va_list args) {
-  fprintf(stderr, "%s: ", program_name);
-  vfprintf(stderr, format, args);
-  fputc('\n', stderr);
-}
-
-void die(enum exit_code code, const char *format, ...) {
-  va_list args;
-  va_start(args, format);
-  message(format, args);
-  va_end(args);
-  exit((int)code);
-}
-
-void die_status(int status, const char *format, ...) {
-  if (status == GSL_ENOMEM)
-    die(EXIT_IO, "out of memory");
-  char what[256];
-  va_list args;
-  va_start(args, format);
-  vsnprintf(what, sizeof what, format, args);
-  va_end(args);
-  die(status == GSL_EINVAL ? EXIT_USAGE : EXIT_IO, "%s: %s", what,
-      gsl_strerror(status));
-}
-
-void warn(const char *format, ...) {
-  va_list args;
-  va_start(args, format);
-  message(format, args);
-  va_end(args);
-}
+#include "program/help.h"
+#include "program/suggest.h"
 
 static const char *expected(const char *format, ...) {
-  static _Thread_local char text[256];
+  static _Thread_local char text[640];
   va_list args;
   va_start(args, format);
   vsnprintf(text, sizeof text, format, args);
@@ -120,13 +81,19 @@ static const char *set_list(struct option_spec *o, const char *text) {
   return NULL;
 }
 
-/* The k-th choice's name, NULL after the last. */
+/* Where the k-th choice's name is. */
 static const char *const *choice(const struct option_spec *o, size_t k) {
   const size_t size = o->choice_size ? o->choice_size : sizeof *o->choices;
   return (const char *const *)((const char *)o->choices + k * size);
 }
 
-static const char *choice_help(const struct option_spec *o, size_t k) {
+const char *option_choice(const struct option_spec *o, size_t k) {
+  return *choice(o, k);
+}
+
+const char *option_choice_help(const struct option_spec *o, size_t k) {
+  if (!o->choice_help)
+    return NULL;
   return *(const char *const *)((const char *)choice(o, k) + o->choice_help);
 }
 
@@ -148,15 +115,15 @@ const char *option_set(struct option_spec *o, const char *text) {
     return NULL;
   case OPTION_TEXT:
     if (o->choices) {
-      char list[160] = "one of";
-      const char *const *c;
-      for (size_t k = 0; *(c = choice(o, k)); k++) {
-        if (!strcmp(*c, text)) {
-          *(const char **)o->value = *c;
+      char list[600] = "one of";
+      const char *c;
+      for (size_t k = 0; (c = option_choice(o, k)); k++) {
+        if (!strcmp(c, text)) {
+          *(const char **)o->value = c;
           return NULL;
         }
         strncat(list, " ", sizeof list - strlen(list) - 1);
-        strncat(list, *c, sizeof list - strlen(list) - 1);
+        strncat(list, c, sizeof list - strlen(list) - 1);
       }
       return expected("%s", list);
     }
@@ -207,103 +174,72 @@ void option_text(const struct option_spec *o, char *text, size_t size) {
   }
 }
 
-static void print_choices(const struct option_spec *o) {
-  if (o->choice_help)
-    for (size_t k = 0; *choice(o, k); k++)
-      printf("  %-18s   %-10s %s\n", "", *choice(o, k), choice_help(o, k));
-  else {
-    printf("  %-18s one of", "");
-    for (size_t k = 0; *choice(o, k); k++)
-      printf(" %s", *choice(o, k));
-    putchar('\n');
+void option_default(const struct option_spec *o, char *text, size_t size) {
+  option_text(o, text, size);
+  if (o->type == OPTION_FLAG ||
+      (o->type == OPTION_DOUBLE && !in_range(o, *(const double *)o->value)))
+    text[0] = 0;
+  if (!*text && o->unset)
+    o->unset(text, size);
+}
+
+enum { MOST_OPTIONS = 64, FIRST_OPTION = 1000 };
+
+/* Why getopt_long did not take an argument, and what may have been meant. */
+static _Noreturn void refuse(const struct option table[], char reason,
+                             const char *argument) {
+  if (reason == ':' || optopt >= FIRST_OPTION)
+    die(EXIT_USAGE, "--%s: %s", table[optopt - FIRST_OPTION].name,
+        reason == ':' ? "expected an argument" : "takes no argument");
+  if (optopt)
+    die(EXIT_USAGE, "-%c: no such option", optopt);
+  const char *names[MOST_OPTIONS + 3];
+  char word[64];
+  size_t count = 0, begun = 0;
+  snprintf(word, sizeof word, "%.*s", (int)strcspn(argument + 2, "="),
+           argument + 2);
+  for (; table[count].name; count++) {
+    names[count] = table[count].name;
+    begun += !strncmp(names[count], word, strlen(word));
   }
+  if (begun > 1)
+    die(EXIT_USAGE, "--%s: stands for several options", word);
+  const char *meant = suggest(word, names, count);
+  if (meant)
+    die(EXIT_USAGE, "--%s: no such option; did you mean --%s?", word, meant);
+  die(EXIT_USAGE, "--%s: no such option", word);
 }
-
-static void print_help(const struct program *p) {
-  printf("Usage: %s %s\n%s\n\nOptions (defaults in brackets):\n", p->name,
-         p->usage, p->summary);
-  for (const struct option_spec *o = p->options; o->name; o++) {
-    char head[80], value[128];
-    const char *metavar = o->type == OPTION_FLAG   ? ""
-                          : o->type == OPTION_TEXT ? " NAME"
-                          : o->type == OPTION_SIZE ? " N"
-                          : o->type == OPTION_LIST ? " LIST"
-                                                   : " X";
-    snprintf(head, sizeof head, "--%s%s", o->name, metavar);
-    printf("  %-18s %s", head, o->help);
-    if (o->unit && *o->unit)
-      printf(", %s", o->unit);
-    option_text(o, value, sizeof value);
-    const bool unset =
-        o->type == OPTION_DOUBLE && !in_range(o, *(const double *)o->value);
-    if (unset)
-      *value = 0;
-    if (!*value && o->unset)
-      o->unset(value, sizeof value);
-    if (o->type != OPTION_FLAG && *value)
-      printf(" [%s]", value);
-    putchar('\n');
-    if (o->choices)
-      print_choices(o);
-  }
-  printf("  %-18s this text\n  %-18s name and version\n", "--help",
-         "--version");
-  printf("\nExit status: 0 done, 1 input/output, 2 usage, 3 bad input,\n"
-         "4 the integration failed, 5 a limit was reached first.\n"
-         "\nExample:\n  %s\n",
-         p->example);
-}
-
-void finish_output(void) {
-  const bool failed = ferror(stdout);
-  if (fflush(stdout) != 0 || failed)
-    die(EXIT_IO, "standard output: %s", strerror(errno));
-}
-
-enum { MOST_OPTIONS = 64, HELP = 1000, VERSION };
 
 int options_parse(const struct program *p, int argc, char **argv) {
-  program_name = p->name;
-  gsl_set_error_handler_off();
-  signal(SIGPIPE, SIG_IGN);
-  /* A closed standard stream would be given to the next file opened. Read-only,
-     so that writing to it still fails. */
-  int fd;
-  do
-    fd = open("/dev/null", O_RDONLY);
-  while (fd >= 0 && fd <= STDERR_FILENO);
-  if (fd >= 0)
-    close(fd);
-  size_t count = 0;
-  while (p->options[count].name)
-    count++;
   struct option table[MOST_OPTIONS + 3] = {{0}};
-  if (count > MOST_OPTIONS)
-    die(EXIT_IO, "internal error: %zu options", count);
-  for (size_t i = 0; i < count; i++)
-    table[i] = (struct option){.name = p->options[i].name,
-                               .has_arg = p->options[i].type == OPTION_FLAG
-                                              ? no_argument
-                                              : required_argument,
-                               .val = (int)i};
-  table[count] = (struct option){.name = "help", .val = HELP};
-  table[count + 1] = (struct option){.name = "version", .val = VERSION};
-  argv[0] = (char *)p->name; /* getopt's messages begin as ours do */
+  size_t count = 0;
+  program_begin(p->name, program_verb());
+  for (; p->options[count].name; count++) {
+    if (count == MOST_OPTIONS)
+      die(EXIT_IO, "internal error: more than %d options", MOST_OPTIONS);
+    table[count] = (struct option){
+        .name = p->options[count].name,
+        .has_arg = p->options[count].type == OPTION_FLAG ? no_argument
+                                                         : required_argument,
+        .val = FIRST_OPTION + (int)count};
+  }
+  const int help = FIRST_OPTION + (int)count, version = help + 1;
+  table[count] = (struct option){.name = "help", .val = help};
+  table[count + 1] = (struct option){.name = "version", .val = version};
+  if (argc > 1 && !strcmp(argv[argc - 1], "--man"))
+    help_print_man(p);
+  if (argc > 1 && !strcmp(argv[argc - 1], "--complete"))
+    help_print_completion(p);
+  opterr = 0;
   int found;
-  while ((found = getopt_long(argc, argv, "", table, NULL)) != -1) {
-    if (found == '?')
-      exit(EXIT_USAGE);
-    if (found == HELP) {
-      print_help(p);
-      finish_output();
-      exit(EXIT_DONE);
-    }
-    if (found == VERSION) {
-      printf("%s %s\n", p->name, DEM_VERSION);
-      finish_output();
-      exit(EXIT_DONE);
-    }
-    struct option_spec *o = &p->options[found];
+  while ((found = getopt_long(argc, argv, ":h", table, NULL)) != -1) {
+    if (found == '?' || found == ':')
+      refuse(table, (char)found, argv[optind - 1]);
+    if (found == help || found == 'h')
+      help_print(p);
+    if (found == version)
+      help_print_version(p);
+    struct option_spec *o = &p->options[found - FIRST_OPTION];
     const char *want = option_set(o, optarg);
     if (want)
       die(EXIT_USAGE, "--%s %s: expected %s", o->name, optarg, want);

@@ -1,21 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Command lines and parameter headers from one table; messages and exit
-   status. */
+/* Command lines, help, man pages, completion and parameter headers from one
+   table. */
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
 #include <stdbool.h>
 #include <stddef.h>
 #include "files/numbers.h"
-
-enum exit_code {
-  EXIT_DONE = 0,
-  EXIT_IO = 1,
-  EXIT_USAGE = 2,
-  EXIT_INPUT = 3,
-  EXIT_INTEGRATION = 4,
-  EXIT_LIMIT = 5
-};
+#include "program/messages.h"
 
 enum option_type {
   OPTION_FLAG,   /* bool */
@@ -64,20 +56,10 @@ struct program {
   struct option_spec *options; /* ends with a NULL name */
 };
 
-/* Prints "PROGRAM: MESSAGE" on one line of standard error and exits. */
-_Noreturn void die(enum exit_code code, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
-/* Leaves after a library's error, a GSL code: what was asked for cannot be had
-   (GSL_EINVAL, EXIT_USAGE), "out of memory" or another reason (EXIT_IO). What
-   format says comes before the reason. */
-_Noreturn void die_status(int status, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
-/* The same as die without leaving. */
-void warn(const char *format, ...) __attribute__((format(printf, 1, 2)));
-
-/* Sets up a program (name for messages, GSL's error handler off, SIGPIPE as
-   an error) and parses its command line; --help and --version print and exit,
-   a mistake exits with EXIT_USAGE. Returns the index of the first operand. */
+/* Sets up a program (program_begin) and parses its command line; --help, -h and
+   --version print and exit, and so do two that are not listed and must come
+   last: --man, the page for man, and --complete, what a shell may complete. A
+   mistake exits with EXIT_USAGE. Returns the index of the first operand. */
 int options_parse(const struct program *p, int argc, char **argv);
 
 /* Sets one option from text. NULL, or what was expected, in a static buffer of
@@ -85,10 +67,14 @@ int options_parse(const struct program *p, int argc, char **argv);
 const char *option_set(struct option_spec *o, const char *text);
 struct option_spec *option_find(struct option_spec *options, const char *name);
 
+/* The k-th choice's name, NULL after the last; and its help, NULL if there is
+   none. */
+const char *option_choice(const struct option_spec *o, size_t k);
+const char *option_choice_help(const struct option_spec *o, size_t k);
+
 /* The value as text, as option_set reads it; numbers by number_format. */
 void option_text(const struct option_spec *o, char *text, size_t size);
-
-/* Flushes standard output; exits with EXIT_IO if anything was not written. */
-void finish_output(void);
+/* The default as --help shows it; empty if there is none to show. */
+void option_default(const struct option_spec *o, char *text, size_t size);
 
 #endif

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a program says of itself, from the table of its options. Each prints to
+   standard output and exits. Tested in tests/test_cli.sh and
+   tests/test_install.sh. */
+#ifndef HELP_H
+#define HELP_H
+
+#include "program/options.h"
+#include "program/verbs.h"
+
+/* The verbs that help is to name, of a program that has some. */
+void help_verbs(const struct verbs *v);
+
+_Noreturn void help_print(const struct program *p);
+_Noreturn void help_print_version(const struct program *p);
+/* Of a program that does nothing without a verb: its verbs. */
+_Noreturn void help_print_verbs(const struct verbs *v);
+/* A page for man, in roff, of the program or of its verb. */
+_Noreturn void help_print_man(const struct program *p);
+/* For a shell: a line for each option, "--NAME", its kind and its choices,
+   separated by tabs; and, of a program without its verb, the verbs' names. */
+_Noreturn void help_print_completion(const struct program *p);
+
+#endif

@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is not to be left behind: files that are half-written, scratch files and
+   directories, a program that works for this one. All of it goes when the
+   process exits or is ended by a signal (HUP, INT, QUIT, TERM, XCPU, ABRT), of
+   which it then dies as if nobody had caught it.
+
+   A reader of standard output that has gone away ends the process at once and
+   without a word, exit status EXIT_IO; a reader of anything else is an error of
+   the write, as is a file that grows too large (XFSZ). Signals that are ignored
+   from the start, as nohup does with HUP, stay ignored.
+
+   Not to be called by more than one thread at a time. Tested in
+   tests/test_litter.sh. */
+#ifndef LITTER_H
+#define LITTER_H
+
+#include <sys/types.h>
+
+/* Watches the exits of this process; further calls do nothing. */
+void litter_watch(void);
+
+/* A file, or a directory that holds nothing but files added as well. The
+   text stays the caller's and must live until it is forgotten. */
+void litter_add(const char *path);
+/* It is complete, or gone. */
+void litter_forget(const char *path);
+
+/* A child that is to end with this process; 0: none any more. */
+void litter_child(pid_t child);
+
+#endif

@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What programs say on standard error, and how they end. */
+#ifndef MESSAGES_H
+#define MESSAGES_H
+
+enum exit_code {
+  EXIT_DONE = 0,
+  EXIT_IO = 1,
+  EXIT_USAGE = 2,
+  EXIT_INPUT = 3,
+  EXIT_INTEGRATION = 4,
+  EXIT_LIMIT = 5
+};
+
+/* Sets up a program: its name for messages, GSL's error handler off, what goes
+   with it when it ends (program/litter.h). verb: of several, the one that runs,
+   or NULL. Both texts must live on. */
+void program_begin(const char *name, const char *verb);
+/* As program_begin had them. */
+const char *program_name(void);
+const char *program_verb(void);
+
+/* Prints "PROGRAM: MESSAGE" on one line of standard error and exits; after a
+   mistake in the use (EXIT_USAGE) the line ends with where the help is. */
+_Noreturn void die(enum exit_code code, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+/* Leaves after a library's error, a GSL code: what was asked for cannot be had
+   (GSL_EINVAL, EXIT_USAGE), "out of memory" or another reason (EXIT_IO). What
+   format says comes before the reason. */
+_Noreturn void die_status(int status, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+/* The same as die without leaving. */
+void warn(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* Flushes standard output; exits with EXIT_IO if anything was not written,
+   without a word if nobody reads it any more. */
+void finish_output(void);
+
+#endif
