@@ -86,8 +86,18 @@ add(struct shape *s, const char *format, ...) {
   va_end(args);
 }
 
+void shape_add(struct shape *s, const char *format, ...) {
+  const size_t used = strlen(s->more);
+  va_list args;
+  va_start(args, format);
+  vsnprintf(s->more + used, sizeof s->more - used, format, args);
+  va_end(args);
+}
+
 void shape_measure(struct shape *s) {
   struct solid_volume v;
+  if (s->statement[0])
+    return;
   s->statement[0] = 0;
   add(s, "t=%g: %zu spheres, ", s->bed.t, s->bed.n);
   if (!frame_box_resolved(&s->bed, s->box)) {
@@ -106,9 +116,10 @@ void shape_measure(struct shape *s) {
 }
 
 void shape_say(struct shape *s) {
-  if (!s->statement[0])
-    shape_measure(s);
+  shape_measure(s);
   warn("%s", s->statement);
+  if (s->more[0])
+    warn("%s", s->more);
 }
 
 void shape_free(struct shape *s) {

@@ -30,15 +30,21 @@ struct shape {
   /* what shape_measure finds */
   double fraction;     /* solid, of the box; NaN if that has no digits */
   char statement[400]; /* what is solid, for standard error and headers */
+  char more[400];      /* what a format says of it besides; or empty */
 };
 
 /* Exits with one line where the frame cannot be handed over. */
 void shape_make(struct shape *s, const struct shape_options *o,
                 const struct frames *f, const struct bed *b);
 
+/* Both are to be had from then on. */
 void shape_measure(struct shape *s);
 
-/* The same, on a line of standard error. */
+/* What a format says besides. */
+void shape_add(struct shape *s, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+/* All of that, on a line of standard error. */
 void shape_say(struct shape *s);
 
 void shape_free(struct shape *s);

@@ -1,14 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Voxel grids: VTK XML ImageData, or the bare numbers, x fastest. Some rows at
+/* Voxel grids: VTK XML ImageData, the bare numbers, x fastest, MetaImage, and
+   text for Palabos. Some rows at
    a time, so that memory does not grow with the grid. */
 #define _POSIX_C_SOURCE 200809L
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 #include <unistd.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include "program/options.h"
 #include "geometry/voxels.h"
+#include "geometry/parts.h"
+#include "measure.h"
+#include "program/files.h"
+#include "program/version.h"
 #include "writers.h"
 
 /* Numbers held at a time: 16 MB. */
@@ -44,20 +50,65 @@ static void narrow(const struct write_options *o, double *value, size_t count) {
       ((float *)value)[i] = (float)value[i];
 }
 
-static void write_cells(FILE *out, const struct write_frame *f,
-                        const struct write_options *o) {
-  const struct bed *b = f->bed;
+/* What a grid holds, as it is written. */
+struct told {
+  struct parts *parts;
+  bool *solid; /* of a row */
+  double sum;  /* of the cells' values, or of the solid cells */
+};
+
+static int tell_row(struct told *t, const struct write_options *o, size_t nx,
+                    const double *value) {
+  for (size_t i = 0; i < nx; i++) {
+    t->solid[i] = o->distance ? value[i] <= 0 : value[i] >= 0.5;
+    t->sum += o->distance ? t->solid[i] : value[i];
+  }
+  return parts_row(t->parts, t->solid);
+}
+
+static void tell(const struct told *t, const struct write_frame *f,
+                 const struct write_options *o) {
+  const size_t *cells = o->cells;
+  size_t count[2];
+  parts_count(t->parts, count);
+  shape_add(f->shape,
+            "%zu x %zu x %zu cells, %s %.12g; cells that share a face make "
+            "%zu solid part%s and %zu pore part%s",
+            cells[0], cells[1], cells[2],
+            o->binary || o->distance ? "solid share of midpoints"
+                                     : "mean solid fraction",
+            t->sum / (double)cells[0] / (double)cells[1] / (double)cells[2],
+            count[true], count[true] == 1 ? "" : "s", count[false],
+            count[false] == 1 ? "" : "s");
+}
+
+typedef void write_row(FILE *out, const struct write_options *o, size_t nx,
+                       double *value);
+
+static void write_numbers(FILE *out, const struct write_options *o, size_t nx,
+                          double *value) {
+  narrow(o, value, nx);
+  write_little_endian(out, value, number_size(o), nx);
+}
+
+/* Writes the rows of a grid over a box, x fastest, then y, then z. */
+static void write_grid(FILE *out, const struct write_frame *f,
+                       const struct write_options *o, const struct solid *solid,
+                       const double box[6], const size_t cells[3],
+                       write_row *row) {
   const enum voxels_value what = o->binary     ? VOXELS_MIDPOINT
                                  : o->distance ? VOXELS_DISTANCE
                                                : VOXELS_FRACTION;
-  const size_t nx = o->cells[0], ny = o->cells[1], nz = o->cells[2];
+  const size_t nx = cells[0], ny = cells[1], nz = cells[2];
   const size_t rows = GSL_MIN(ny, GSL_MAX(1, AT_ONCE / nx));
   struct voxels *v = NULL;
+  struct told told = {.solid = calloc(nx, sizeof *told.solid)};
   double *value =
       nx > SIZE_MAX / rows ? NULL : calloc(nx * rows, sizeof *value);
-  int status = value
-                   ? voxels_open(&v, b->n, b->x, b->r, f->shape->box, o->cells)
-                   : GSL_ENOMEM;
+  int status =
+      value && told.solid ? parts_open(&told.parts, nx, ny) : GSL_ENOMEM;
+  if (!status)
+    status = voxels_open(&v, solid->n, solid->x, solid->r, box, cells);
   struct progress progress = {.show = !o->quiet && isatty(STDERR_FILENO),
                               .start = time(NULL)};
   progress.shown = progress.start;
@@ -66,10 +117,10 @@ static void write_cells(FILE *out, const struct write_frame *f,
       const size_t end = GSL_MIN(ny, j + rows);
       show_progress(&progress, k, nz);
       status = voxels_rows(v, what, k, j, end, o->threads, value);
-      if (status)
-        break;
-      narrow(o, value, nx * (end - j));
-      write_little_endian(out, value, number_size(o), nx * (end - j));
+      for (size_t r = j; r < end && !status; r++) {
+        status = tell_row(&told, o, nx, value + nx * (r - j));
+        row(out, o, nx, value + nx * (r - j));
+      }
     }
   voxels_close(v);
   free(value);
@@ -79,11 +130,95 @@ static void write_cells(FILE *out, const struct write_frame *f,
     die(EXIT_IO, "out of memory for rows of %zu cells", nx);
   if (status)
     die(EXIT_USAGE, "--cells: finer than numbers of the box's size resolve");
+  tell(&told, f, o);
+  parts_close(told.parts);
+  free(told.solid);
+}
+
+static void write_cells(FILE *out, const struct write_frame *f,
+                        const struct write_options *o) {
+  write_grid(out, f, o, &f->shape->solid, f->shape->box, o->cells,
+             write_numbers);
 }
 
 void write_raw(FILE *out, const struct write_frame *f,
                const struct write_options *o) {
   write_cells(out, f, o);
+}
+
+/* MetaImage: a header of a few lines, and the numbers in a file beside it. The
+   place of an image is that of its first midpoint. */
+void write_mhd(const char *path, const struct write_frame *f,
+               const struct write_options *o) {
+  const double *box = f->shape->box;
+  const size_t stem = strlen(path) - strlen(".mhd");
+  if (strlen(path) <= strlen(".mhd") || strcmp(path + stem, ".mhd"))
+    die(EXIT_USAGE, "--output %s: expected a name that ends in .mhd", path);
+  char *raw = measure_alloc(strlen(path) + 1, 1);
+  memcpy(raw, path, stem);
+  memcpy(raw + stem, ".raw", sizeof ".raw");
+  const char *slash = strrchr(raw, '/');
+  struct output_file header, numbers;
+  output_open(&numbers, raw);
+  output_open(&header, path);
+  write_cells(numbers.stream, f, o);
+  shape_measure(f->shape);
+  fprintf(header.stream,
+          "ObjectType = Image\nNDims = 3\n"
+          "Comment = analyze export " DEM_VERSION ": %s\n"
+          "BinaryData = True\nBinaryDataByteOrderMSB = False\n"
+          "CompressedData = False\n"
+          "TransformMatrix = 1 0 0 0 1 0 0 0 1\n",
+          f->shape->statement);
+  const char *const words[] = {"Offset", "ElementSpacing"};
+  for (int word = 0; word < 2; word++) {
+    fprintf(header.stream, "%s =", words[word]);
+    for (int k = 0; k < 3; k++) {
+      const double step = (box[2 * k + 1] - box[2 * k]) / (double)o->cells[k];
+      fprintf(header.stream, " %.17g", word ? step : box[2 * k] + step / 2);
+    }
+    fputc('\n', header.stream);
+  }
+  fprintf(header.stream,
+          "DimSize = %zu %zu %zu\nElementType = MET_%s\n"
+          "ElementDataFile = %s\n",
+          o->cells[0], o->cells[1], o->cells[2],
+          o->binary   ? "UCHAR"
+          : o->single ? "FLOAT"
+                      : "DOUBLE",
+          slash ? slash + 1 : raw);
+  output_commit(&numbers);
+  output_commit(&header);
+  free(raw);
+}
+
+static void write_flags(FILE *out, const struct write_options *o, size_t nx,
+                        double *value) {
+  (void)o;
+  for (size_t i = 0; i < nx; i++) {
+    fputc(value[i] != 0 ? '1' : '0', out);
+    fputc(i + 1 < nx ? ' ' : '\n', out);
+  }
+}
+
+/* Palabos reads whole numbers as text, x slowest, then y, then z: the rows of
+   the grid that is turned so that x and z change places. */
+void write_palabos(FILE *out, const struct write_frame *f,
+                   const struct write_options *o) {
+  const struct solid *s = &f->shape->solid;
+  const double *box = f->shape->box;
+  const double turned[6] = {box[4], box[5], box[2], box[3], box[0], box[1]};
+  const size_t cells[3] = {o->cells[2], o->cells[1], o->cells[0]};
+  double *x = measure_alloc(3 * s->n, sizeof *x);
+  for (size_t i = 0; i < s->n; i++)
+    for (size_t k = 0; k < 3; k++)
+      x[3 * i + k] = s->x[3 * i + 2 - k];
+  struct solid solid = *s;
+  solid.x = x;
+  struct write_options flags = *o;
+  flags.binary = true;
+  write_grid(out, f, &flags, &solid, turned, cells, write_flags);
+  free(x);
 }
 
 void write_vti(FILE *out, const struct write_frame *f,

@@ -28,14 +28,15 @@ typedef void write_function(FILE *out, const struct write_frame *f,
                             const struct write_options *o);
 
 write_function write_bed, write_positions, write_csv, write_xyz, write_lammps,
-    write_lammps_data, write_vtp, write_stl, write_vti, write_raw;
+    write_lammps_data, write_vtp, write_stl, write_vti, write_raw,
+    write_palabos;
 
 /* Formats of several files: path is what --output says, a folder or a file.
    They exit with one line where something cannot be written. */
 typedef void write_files_function(const char *path, const struct write_frame *f,
                                   const struct write_options *o);
 
-write_files_function write_freezethaw;
+write_files_function write_freezethaw, write_mhd;
 
 /* count numbers of size bytes each, little-endian. */
 void write_little_endian(FILE *out, const void *data, size_t size,

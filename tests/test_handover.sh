@@ -221,4 +221,56 @@ check 'all frames, a folder each' hand --format freezethaw --frames all \
 check 'all frames: are there' cmp -s "$T/case-00/spheres_positions.txt" \
   "$T/case/spheres_positions.txt"
 
+# --- voxels for others -------------------------------------------------------
+hand --format raw --binary --cells 7,6,5 "$T/bed" >"$T/raw"
+said=$(tail -n 1 "$T/said")
+check 'palabos' hand --format palabos --cells 7,6,5 "$T/bed" >"$T/text"
+check 'palabos says the same of it' [ "$(tail -n 1 "$T/said")" = "$said" ]
+said=
+check 'palabos: z fastest, then y, then x' cmp -s \
+  <(od -An -v -w1 -tu1 "$T/raw" | awk '{v[NR - 1] = $1} END {
+    for (i = 0; i < 7; i++) for (j = 0; j < 6; j++) for (k = 0; k < 5; k++)
+      print v[i + 7 * (j + 6 * k)]}') <(tr ' ' '\n' <"$T/text")
+check 'palabos: a line for each x and y' \
+  awk 'NF != 5 {bad = 1} END {exit bad || NR != 42}' "$T/text"
+box=-0.5,1,0,0.75,0,2
+hand --format raw --cells 3,2,5 --box=$box --scale 2 "$T/bed" >"$T/raw"
+check 'mhd' hand --format mhd --cells 3,2,5 --box=$box --scale 2 \
+  --output "$T/image.mhd" "$T/bed"
+check 'mhd: the numbers are those of raw' cmp -s "$T/raw" "$T/image.raw"
+check 'mhd: the first midpoint and the steps' [ "$(sed -n \
+  's/^\(Offset\|ElementSpacing\|DimSize\|Element.*\) = //p' "$T/image.mhd" |
+  tr '\n' ' ')" = '-0.5 0.375 0.40000000000000002 1 0.75 0.80000000000000004 3 2 5 MET_DOUBLE image.raw ' ]
+hand --format mhd --binary --output "$T/image.mhd" "$T/bed"
+check 'mhd: bytes' grep -q 'MET_UCHAR' "$T/image.mhd"
+refuse 'mhd: another name' 2 'ends in .mhd' --format mhd --output "$T/a.raw" \
+  "$T/bed"
+check 'mhd: a file for each frame' hand --format mhd --cells 4 --frames all \
+  --output "$T/f%d.mhd" "$T/bed"
+check 'mhd: its own numbers' grep -q '= f0.raw$' "$T/f0.mhd"
+refuse 'palabos: no numbers' 2 '--distance: not for --format palabos' \
+  --format palabos --distance "$T/bed"
+
+# parts: two spheres that touch and one apart; a box around a sphere has an
+# inside and an outside
+parts() {
+  sed -n 's/.*make \([0-9]*\) solid parts* and \([0-9]*\) pore.*/\1 \2/p' \
+    "$T/said"
+}
+printf 'x,y,z,r\n.25,.5,.5,.2\n.64,.5,.5,.2\n.25,.2,.2,.1\n' >"$T/three.csv"
+for what in '' --binary --distance; do
+  hand --format raw --cells 50 $what "$T/three.csv" >/dev/null
+  check "parts of three spheres $what" [ "$(parts)" = '2 1' ]
+done
+awk 'BEGIN {print "x,y,z,r"; for (i = 0; i < 2000; i++) {
+  z = (i + 0.5) / 1000 - 1; p = 2.399963229728653 * i; s = sqrt(1 - z * z)
+  print 0.5 + 0.35 * s * cos(p) "," 0.5 + 0.35 * s * sin(p) "," 0.5 + 0.35 * z \
+    ",0.05"}; print "0.5,0.5,0.5,0.1"}' >"$T/shell.csv"
+hand --format raw --cells 50 "$T/shell.csv" >/dev/null
+check "parts of a shell around a sphere: $(parts)" [ "$(parts)" = '2 2' ]
+"$B/analyze" radius --quiet --keep touching "$T/bed" | timeout 60 "$B/analyze" \
+  export --format raw --binary 2>"$T/said" >/dev/null
+check "a bed that touches falls into parts: $(parts)" \
+  awk '{exit !($1 > 150 && $2 == 1)}' <(parts)
+
 check_done
