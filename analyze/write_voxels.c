@@ -108,7 +108,7 @@ static void write_grid(FILE *out, const struct write_frame *f,
   int status =
       value && told.solid ? parts_open(&told.parts, nx, ny) : GSL_ENOMEM;
   if (!status)
-    status = voxels_open(&v, solid->n, solid->x, solid->r, box, cells);
+    status = voxels_open(&v, solid, box, cells);
   struct progress progress = {.show = !o->quiet && isatty(STDERR_FILENO),
                               .start = time(NULL)};
   progress.shown = progress.start;

@@ -125,14 +125,14 @@ static void test_crossing(gsl_rng *rng) {
   }
   uint32_t(*ends)[2] = NULL;
   size_t bridges = 0;
-  CHECK(solid_pairs(N, x, r, 0.1, &ends, &bridges) == GSL_SUCCESS);
-  CHECK(bridges > 10);
+  CHECK(solid_pairs(N, x, r, 0.05, &ends, &bridges) == GSL_SUCCESS);
+  CHECK(bridges > 5);
   struct solid s = {.n = N,
                     .x = x,
                     .r = r,
                     .bridges = bridges,
                     .ends = (const uint32_t(*)[2])ends,
-                    .bridge_radius = 0.12};
+                    .bridge_radius = 0.1};
   static const double unit[6] = {0, 1, 0, 1, 0, 1};
   const struct solid_volume v = measured(&s, unit);
   CHECK(v.bridges > 0.005 && v.error > 0 && v.error < 1e-9);

@@ -171,6 +171,10 @@ struct spheres {
   double x[3 * 64], r[64];
 };
 
+static struct solid solid_of(const struct spheres *s) {
+  return (struct solid){.n = s->n, .x = s->x, .r = s->r};
+}
+
 static struct spheres random_spheres(gsl_rng *rng, size_t n, double low,
                                      double high) {
   struct spheres s = {.n = n};
@@ -182,12 +186,12 @@ static struct spheres random_spheres(gsl_rng *rng, size_t n, double low,
   return s;
 }
 
-static double *grid(const struct spheres *s, const double box[6],
-                    const size_t cells[3], enum voxels_value what,
-                    size_t threads, size_t rows) {
+static double *solid_grid(const struct solid *s, const double box[6],
+                          const size_t cells[3], enum voxels_value what,
+                          size_t threads, size_t rows) {
   double *value = calloc(cells[0] * cells[1] * cells[2], sizeof *value);
   struct voxels *v;
-  if (!CHECK(voxels_open(&v, s->n, s->x, s->r, box, cells) == GSL_SUCCESS))
+  if (!CHECK(voxels_open(&v, s, box, cells) == GSL_SUCCESS))
     return value;
   for (size_t k = 0; k < cells[2]; k++)
     for (size_t j = 0; j < cells[1]; j += rows) {
@@ -197,6 +201,13 @@ static double *grid(const struct spheres *s, const double box[6],
     }
   voxels_close(v);
   return value;
+}
+
+static double *grid(const struct spheres *s, const double box[6],
+                    const size_t cells[3], enum voxels_value what,
+                    size_t threads, size_t rows) {
+  const struct solid solid = solid_of(s);
+  return solid_grid(&solid, box, cells, what, threads, rows);
 }
 
 static double sum_of(const double *value, size_t count) {
@@ -338,6 +349,74 @@ static void test_same_bits(gsl_rng *rng) {
   }
 }
 
+/* --- bridges and walls -----------------------------------------------------
+ */
+
+static void test_solid(gsl_rng *rng) {
+  static const double box[6] = {-0.25, 1, 0, 1.25, 0.125, 1.25};
+  static const double walls[6] = {-0.1, 0.9, 0.01, GSL_POSINF, 0.2, 1.2};
+  static const size_t cells[3] = {20, 25, 18};
+  enum { COUNT = 20 * 25 * 18 };
+  const struct spheres some = random_spheres(rng, 45, 0.1, 0.2);
+  uint32_t(*ends)[2] = NULL;
+  struct solid s = solid_of(&some);
+  s.bridge_radius = 0.09;
+  CHECK(solid_pairs(s.n, s.x, s.r, 0.05, &ends, &s.bridges) == GSL_SUCCESS);
+  CHECK(s.bridges > 10);
+  s.ends = (const uint32_t(*)[2])ends;
+  for (int walled = 0; walled < 2; walled++) {
+    s.container = walled ? walls : NULL;
+    double *fraction = solid_grid(&s, box, cells, VOXELS_FRACTION, 1, 25);
+    double *middle = solid_grid(&s, box, cells, VOXELS_MIDPOINT, 1, 25);
+    double *distance = solid_grid(&s, box, cells, VOXELS_DISTANCE, 1, 25);
+    double worst = 0, sum = 0, whole = 1;
+    size_t cut = 0, wrong = 0;
+    for (size_t m = 0; m < COUNT; m++) {
+      const size_t at[3] = {m % 20, m / 20 % 25, m / 500};
+      double cell[6], p[3], want = HUGE_VAL;
+      whole = 1;
+      for (int k = 0; k < 3; k++) {
+        const double h = (box[2 * k + 1] - box[2 * k]) / (double)cells[k];
+        cell[2 * k] = box[2 * k] + h * (double)at[k];
+        cell[2 * k + 1] = cell[2 * k] + h;
+        p[k] = cell[2 * k] + h / 2;
+        whole *= h;
+      }
+      for (size_t i = 0; i < s.n; i++)
+        want = fmin(want, solid_ball_distance(s.x + 3 * i, s.r[i], p));
+      for (size_t b = 0; b < s.bridges; b++)
+        want = fmin(want, solid_cylinder_distance(s.x + 3 * ends[b][0],
+                                                  s.x + 3 * ends[b][1],
+                                                  s.bridge_radius, p));
+      if (walled)
+        want = fmin(want, solid_beyond_distance(walls, p));
+      wrong += !(fabs(distance[m] - want) <= 1e-14);
+      wrong += fabs(want) > 1e-14 && middle[m] != (want < 0);
+      sum += fraction[m];
+      struct solid_volume v = {.bridges = GSL_NAN};
+      if (m % 29 == 0) { /* each takes its time */
+        CHECK(solid_volume(&s, cell, &v) == GSL_SUCCESS);
+        const double d = fabs(fraction[m] - v.total / whole);
+        worst = d <= worst ? worst : d;
+        cut += v.bridges > 1e-3 * whole;
+      }
+    }
+    struct solid_volume v = {.total = GSL_NAN};
+    CHECK(solid_volume(&s, box, &v) == GSL_SUCCESS);
+    CHECK(wrong == 0);
+    CHECK(cut > 5);
+    CHECK_CLOSE(worst, 0, 3e-3); /* a rim within 1/24 of a cell */
+    CHECK_CLOSE(sum * whole, v.total, 1e-5);
+    double *again = solid_grid(&s, box, cells, VOXELS_FRACTION, 3, 4);
+    CHECK(!memcmp(again, fraction, COUNT * sizeof *again));
+    free(again);
+    free(distance);
+    free(middle);
+    free(fraction);
+  }
+  free(ends);
+}
+
 static void test_refused(void) {
   static const double x[3] = {0.5, 0.5, 0.5}, r[1] = {0.1}, bad[1] = {NAN};
   static const double unit[6] = {0, 1, 0, 1, 0, 1},
@@ -347,14 +426,16 @@ static void test_refused(void) {
                       endless[6] = {0, INFINITY, 0, 1, 0, 1};
   static const size_t cells[3] = {4, 4, 4}, no[3] = {4, 0, 4},
                       fine[3] = {64, 4, 4};
+  const struct solid s = {.n = 1, .x = x, .r = r},
+                     wrong = {.n = 1, .x = x, .r = bad};
   struct voxels *v = NULL;
-  CHECK(voxels_open(&v, 1, x, r, flat, cells) == GSL_EINVAL);
-  CHECK(voxels_open(&v, 1, x, r, turned, cells) == GSL_EINVAL);
-  CHECK(voxels_open(&v, 1, x, r, endless, cells) == GSL_EINVAL);
-  CHECK(voxels_open(&v, 1, x, r, unit, no) == GSL_EINVAL);
-  CHECK(voxels_open(&v, 1, x, bad, unit, cells) == GSL_EINVAL);
+  CHECK(voxels_open(&v, &s, flat, cells) == GSL_EINVAL);
+  CHECK(voxels_open(&v, &s, turned, cells) == GSL_EINVAL);
+  CHECK(voxels_open(&v, &s, endless, cells) == GSL_EINVAL);
+  CHECK(voxels_open(&v, &s, unit, no) == GSL_EINVAL);
+  CHECK(voxels_open(&v, &wrong, unit, cells) == GSL_EINVAL);
   /* cells that double cannot tell apart */
-  CHECK(voxels_open(&v, 1, x, r, far, fine) == GSL_EINVAL);
+  CHECK(voxels_open(&v, &s, far, fine) == GSL_EINVAL);
   CHECK(v == NULL);
   voxels_close(NULL);
 }
@@ -371,6 +452,7 @@ int main(void) {
   test_midpoint(rng);
   test_distance(rng);
   test_same_bits(rng);
+  test_solid(rng);
   test_refused();
   gsl_rng_free(rng);
   return check_done();

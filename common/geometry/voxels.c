@@ -19,6 +19,10 @@ struct voxels {
   size_t cells[3];
   size_t n;
   double *x, *r; /* of the spheres with a volume */
+  size_t bridges;
+  double (*bridge)[2][3], bridge_radius; /* from one point to another */
+  bool walled;
+  double container[6];
   struct ball_cell rule;
   /* the layer in work: which spheres each of its rows meets */
   size_t rows_size, members_size;
@@ -28,10 +32,10 @@ struct voxels {
 
 /* The contents of a cell: a sphere's number, or one of these. */
 static const uint32_t NOTHING = UINT32_MAX, SOLID = UINT32_MAX - 1,
-                      SEVERAL = UINT32_MAX - 2;
+                      SEVERAL = UINT32_MAX - 2, BRIDGED = UINT32_MAX - 3;
 
-static bool grid_valid(size_t n, const double *x, const double *r,
-                       const double box[6], const size_t cells[3]) {
+static bool grid_valid(const struct solid *s, const double box[6],
+                       const size_t cells[3]) {
   for (int k = 0; k < 3; k++) {
     const double low = box[2 * k], high = box[2 * k + 1];
     const double step = (high - low) / (double)cells[k];
@@ -40,33 +44,43 @@ static bool grid_valid(size_t n, const double *x, const double *r,
         cells[k] == 0 || !(low + step > low && high - step < high))
       return false;
   }
-  for (size_t i = 0; i < n; i++)
-    if (!isfinite(x[3 * i]) || !isfinite(x[3 * i + 1]) ||
-        !isfinite(x[3 * i + 2]) || !isfinite(r[i]))
+  for (size_t i = 0; i < s->n; i++)
+    if (!isfinite(s->x[3 * i]) || !isfinite(s->x[3 * i + 1]) ||
+        !isfinite(s->x[3 * i + 2]) || !isfinite(s->r[i]))
       return false;
-  return n < SEVERAL;
+  return s->n < BRIDGED && s->bridges < BRIDGED - s->n;
 }
 
-int voxels_open(struct voxels **out, size_t n, const double *x, const double *r,
-                const double box[6], const size_t cells[3]) {
-  if (!grid_valid(n, x, r, box, cells))
+int voxels_open(struct voxels **out, const struct solid *s, const double box[6],
+                const size_t cells[3]) {
+  if (!grid_valid(s, box, cells))
     return GSL_EINVAL;
   struct voxels *v = calloc(1, sizeof *v);
   if (!v)
     return GSL_ENOMEM;
   memcpy(v->box, box, sizeof v->box);
   memcpy(v->cells, cells, sizeof v->cells);
-  v->x = calloc(n + 1, 3 * sizeof *v->x);
-  v->r = calloc(n + 1, sizeof *v->r);
-  if (!v->x || !v->r || ball_cell_init(&v->rule) != GSL_SUCCESS) {
+  v->x = calloc(s->n + 1, 3 * sizeof *v->x);
+  v->r = calloc(s->n + 1, sizeof *v->r);
+  v->bridge = calloc(s->bridges + 1, sizeof *v->bridge);
+  if (!v->x || !v->r || !v->bridge || ball_cell_init(&v->rule) != GSL_SUCCESS) {
     voxels_close(v);
     return GSL_ENOMEM;
   }
-  for (size_t i = 0; i < n; i++)
-    if (r[i] > 0) {
-      memcpy(v->x + 3 * v->n, x + 3 * i, 3 * sizeof *x);
-      v->r[v->n++] = r[i];
+  for (size_t i = 0; i < s->n; i++)
+    if (s->r[i] > 0) {
+      memcpy(v->x + 3 * v->n, s->x + 3 * i, 3 * sizeof *v->x);
+      v->r[v->n++] = s->r[i];
     }
+  v->bridges = s->bridges;
+  v->bridge_radius = s->bridge_radius;
+  for (size_t b = 0; b < s->bridges; b++)
+    for (int end = 0; end < 2; end++)
+      memcpy(v->bridge[b][end], s->x + 3 * (size_t)s->ends[b][end],
+             sizeof v->bridge[b][end]);
+  v->walled = s->container;
+  if (s->container)
+    memcpy(v->container, s->container, sizeof v->container);
   *out = v;
   return GSL_SUCCESS;
 }
@@ -76,6 +90,7 @@ void voxels_close(struct voxels *v) {
     return;
   free(v->member);
   free(v->start);
+  free(v->bridge);
   free(v->r);
   free(v->x);
   free(v);
@@ -151,9 +166,34 @@ static int grow(void **array, size_t *size, size_t want, size_t bytes) {
   return GSL_SUCCESS;
 }
 
-/* Whether the sphere reaches into layer k, and into which of the rows. */
+/* Extent of a bridge along an axis. */
+static void bridge_extent(const struct voxels *v, size_t b, int axis,
+                          double extent[2]) {
+  const double p = v->bridge[b][0][axis], q = v->bridge[b][1][axis];
+  extent[0] = fmin(p, q) - v->bridge_radius;
+  extent[1] = fmax(p, q) + v->bridge_radius;
+}
+
+static bool bridge_rows_met(const struct voxels *v, size_t b, size_t k,
+                            size_t j0, size_t j1, size_t *first, size_t *end) {
+  double x[2], y[2], z[2];
+  bridge_extent(v, b, 0, x);
+  bridge_extent(v, b, 1, y);
+  bridge_extent(v, b, 2, z);
+  if (z[0] >= edge(v, 2, k + 1) || z[1] <= edge(v, 2, k) || x[0] >= v->box[1] ||
+      x[1] <= v->box[0])
+    return false;
+  *first = GSL_MAX(edge_below(v, 1, y[0]), j0);
+  *end = GSL_MIN(edge_above(v, 1, y[1]), j1);
+  return *first < *end;
+}
+
+/* Whether the sphere, or the bridge whose number comes after those of all
+   spheres, reaches into layer k, and into which of the rows. */
 static bool rows_met(const struct voxels *v, size_t i, size_t k, size_t j0,
                      size_t j1, size_t *first, size_t *end) {
+  if (i >= v->n)
+    return bridge_rows_met(v, i - v->n, k, j0, j1, first, end);
   const double *c = v->x + 3 * i, r = v->r[i];
   const double z2 = nearest2(c[2], edge(v, 2, k), edge(v, 2, k + 1));
   if (z2 >= r * r || c[0] - r >= v->box[1] || c[0] + r <= v->box[0])
@@ -173,7 +213,7 @@ static int list_members(struct voxels *v, size_t k, size_t j0, size_t j1) {
     return GSL_ENOMEM;
   memset(v->start, 0, (rows + 2) * sizeof *v->start);
   size_t first, end;
-  for (size_t i = 0; i < v->n; i++)
+  for (size_t i = 0; i < v->n + v->bridges; i++)
     if (rows_met(v, i, k, j0, j1, &first, &end))
       for (size_t j = first; j < end; j++)
         v->start[j - j0 + 2]++;
@@ -182,7 +222,7 @@ static int list_members(struct voxels *v, size_t k, size_t j0, size_t j1) {
   if (grow((void **)&v->member, &v->members_size, v->start[rows + 1],
            sizeof *v->member) != GSL_SUCCESS)
     return GSL_ENOMEM;
-  for (size_t i = 0; i < v->n; i++)
+  for (size_t i = 0; i < v->n + v->bridges; i++)
     if (rows_met(v, i, k, j0, j1, &first, &end))
       for (size_t j = first; j < end; j++)
         v->member[v->start[j - j0 + 1]++] = (uint32_t)i;
@@ -193,12 +233,19 @@ static int list_members(struct voxels *v, size_t k, size_t j0, size_t j1) {
    meets, what its cells hold, and room for the spheres of a cell. */
 struct row {
   const struct voxels *v;
-  size_t count;
+  size_t count, bridges; /* spheres, and the bridges behind them */
   const uint32_t *member;
   double y[2], z[2];
   uint32_t *holds;
   double *x, *r;
+  double (*cut)[2];
 };
+
+static double bridge_distance(const struct voxels *v, size_t b,
+                              const double p[3]) {
+  return solid_cylinder_distance(v->bridge[b][0], v->bridge[b][1],
+                                 v->bridge_radius, p);
+}
 
 /* Of two spheres the one with the greater power everywhere in a cell,
    |x - c|^2 - r^2, has nothing in it that the other has not. Drops such ones;
@@ -233,8 +280,8 @@ static size_t drop_covered(struct row *w, size_t count, const double cell[6],
   return count;
 }
 
-/* A cell that several spheres meet; NaN without memory. */
-static double several_volume(struct row *w, const double cell[6]) {
+/* Gathers the spheres of the row that meet a cell; how many. */
+static size_t gather(struct row *w, const double cell[6]) {
   size_t count = 0;
   for (size_t m = 0; m < w->count; m++) {
     const size_t i = w->member[m];
@@ -246,6 +293,12 @@ static double several_volume(struct row *w, const double cell[6]) {
     memcpy(w->x + 3 * count, w->v->x + 3 * i, 3 * sizeof *w->x);
     w->r[count++] = w->v->r[i];
   }
+  return count;
+}
+
+/* A cell that several spheres meet; NaN without memory. */
+static double several_volume(struct row *w, const double cell[6]) {
+  size_t count = gather(w, cell);
   double sum = 0;
   bool overlap = true;
   if (count <= 16) /* for many spheres it costs more than it saves */
@@ -256,6 +309,53 @@ static double several_volume(struct row *w, const double cell[6]) {
   for (size_t i = 0; i < count; i++)
     sum += ball_cell_volume(&w->v->rule, w->x + 3 * i, w->r[i], cell);
   return sum;
+}
+
+/* Lines through a cell, along either side of its face. */
+enum { LINES = 24 };
+
+/* A cell that bridges meet, too. */
+static double bridged_volume(struct row *w, const double cell[6]) {
+  const struct voxels *v = w->v;
+  static const double along[3] = {1, 0, 0};
+  const size_t count = gather(w, cell);
+  double sum = 0, p[3] = {0};
+  for (int j = 0; j < LINES; j++)
+    for (int k = 0; k < LINES; k++) {
+      p[1] = cell[2] + (cell[3] - cell[2]) * (j + 0.5) / LINES;
+      p[2] = cell[4] + (cell[5] - cell[4]) * (k + 0.5) / LINES;
+      size_t cuts = 0;
+      for (size_t i = 0; i < count; i++)
+        cuts += solid_line_ball(w->x + 3 * i, w->r[i], p, along, w->cut[cuts]);
+      for (size_t m = w->count; m < w->count + w->bridges; m++) {
+        const size_t b = w->member[m] - v->n;
+        cuts += solid_line_cylinder(v->bridge[b][0], v->bridge[b][1],
+                                    v->bridge_radius, p, along, w->cut[cuts]);
+      }
+      sum += solid_covered(cuts, w->cut, cell[0], cell[1]);
+    }
+  return sum * (cell[3] - cell[2]) * (cell[5] - cell[4]) / (LINES * LINES);
+}
+
+/* Marks the cells of a row that a bridge meets, or fills. */
+static void mark_bridge(struct row *w, size_t b) {
+  const struct voxels *v = w->v;
+  double x[2], half2 = 0;
+  bridge_extent(v, b, 0, x);
+  const double side[3] = {(v->box[1] - v->box[0]) / (double)v->cells[0],
+                          w->y[1] - w->y[0], w->z[1] - w->z[0]};
+  for (int k = 0; k < 3; k++)
+    half2 += side[k] * side[k] / 4;
+  const size_t end = edge_above(v, 0, x[1]);
+  for (size_t q = edge_below(v, 0, x[0]); q < end; q++) {
+    const double p[3] = {midpoint(v, 0, q), w->y[0] + side[1] / 2,
+                         w->z[0] + side[2] / 2};
+    const double d = bridge_distance(v, b, p);
+    if (d * d >= half2 && d < 0)
+      w->holds[q] = SOLID;
+    else if (d * d < half2 && w->holds[q] != SOLID)
+      w->holds[q] = BRIDGED;
+  }
 }
 
 /* Marks what the cells of a row hold. */
@@ -284,6 +384,18 @@ static void mark(struct row *w) {
       else if (w->holds[q] != SOLID)
         w->holds[q] = SEVERAL;
   }
+  for (size_t m = w->count; m < w->count + w->bridges; m++)
+    mark_bridge(w, w->member[m] - v->n);
+}
+
+/* Volume in a cell that holds this. */
+static double held_volume(struct row *w, uint32_t held, const double cell[6]) {
+  const struct voxels *v = w->v;
+  if (held == SEVERAL)
+    return several_volume(w, cell);
+  if (held == BRIDGED)
+    return bridged_volume(w, cell);
+  return ball_cell_volume(&v->rule, v->x + 3 * held, v->r[held], cell);
 }
 
 static bool fraction_row(struct row *w, double *value) {
@@ -296,17 +408,50 @@ static bool fraction_row(struct row *w, double *value) {
       value[i] = held == SOLID;
       continue;
     }
-    const double cell[6] = {edge(v, 0, i), edge(v, 0, i + 1), w->y[0],
-                            w->y[1],       w->z[0],           w->z[1]};
+    double cell[6] = {edge(v, 0, i), edge(v, 0, i + 1), w->y[0],
+                      w->y[1],       w->z[0],           w->z[1]};
+    if (v->walled) {
+      cell[0] = fmax(cell[0], v->container[0]);
+      cell[1] = fmin(cell[1], v->container[1]);
+      if (!(cell[0] < cell[1])) {
+        value[i] = 0;
+        continue;
+      }
+    }
     const double whole =
         (cell[1] - cell[0]) * (cell[3] - cell[2]) * (cell[5] - cell[4]);
-    const double volume =
-        held == SEVERAL
-            ? several_volume(w, cell)
-            : ball_cell_volume(&v->rule, v->x + 3 * held, v->r[held], cell);
+    const double volume = held_volume(w, held, cell);
     complete = complete && !isnan(volume);
     /* a sliver or a cell all but filled comes out as rounding has it */
     value[i] = GSL_MIN(GSL_MAX(volume / whole, 0), 1);
+  }
+  return complete;
+}
+
+/* Cuts a range to its part between walls, the share *share of it, which may be
+   0. */
+static void between_walls(const struct voxels *v, int axis, double range[2],
+                          double *share) {
+  const double side = range[1] - range[0];
+  range[0] = fmax(range[0], v->container[2 * axis]);
+  range[1] = fmin(range[1], v->container[2 * axis + 1]);
+  *share = fmax(0, range[1] - range[0]) / side;
+}
+
+/* A row with walls: what is within the container, and the rest of each cell. */
+static bool walled_row(struct row *w, double *value) {
+  const struct voxels *v = w->v;
+  double y, z, x;
+  between_walls(v, 1, w->y, &y);
+  between_walls(v, 2, w->z, &z);
+  const bool any = y > 0 && z > 0;
+  const bool complete = !any || fraction_row(w, value);
+  for (size_t i = 0; i < v->cells[0]; i++) {
+    double range[2] = {edge(v, 0, i), edge(v, 0, i + 1)};
+    between_walls(v, 0, range, &x);
+    const double share = x * y * z;
+    if (share < 1)
+      value[i] = 1 - share + (share > 0 ? share * value[i] : 0);
   }
   return complete;
 }
@@ -327,6 +472,19 @@ static void midpoint_row(const struct row *w, double y, double z,
         value[q] = 1;
     }
   }
+  for (size_t m = w->count; m < w->count + w->bridges; m++) {
+    const size_t b = w->member[m] - v->n;
+    double x[2];
+    bridge_extent(v, b, 0, x);
+    const size_t end = edge_above(v, 0, x[1]);
+    for (size_t q = edge_below(v, 0, x[0]); q < end; q++)
+      if (bridge_distance(v, b, (double[3]){midpoint(v, 0, q), y, z}) <= 0)
+        value[q] = 1;
+  }
+  for (size_t i = 0; v->walled && i < v->cells[0]; i++)
+    if (solid_beyond_distance(v->container,
+                              (double[3]){midpoint(v, 0, i), y, z}) < 0)
+      value[i] = 1;
 }
 
 static int by_row(struct voxels *v, enum voxels_value what, size_t k, size_t j0,
@@ -341,16 +499,20 @@ static int by_row(struct voxels *v, enum voxels_value what, size_t k, size_t j0,
 #pragma omp parallel num_threads(threads) reduction(| : failed)
   {
     struct row w = {.v = v,
-                    .z = {edge(v, 2, k), edge(v, 2, k + 1)},
                     .holds = calloc(v->cells[0], sizeof *w.holds),
                     .x = calloc(most + 1, 3 * sizeof *w.x),
-                    .r = calloc(most + 1, sizeof *w.r)};
-    failed = !w.holds || !w.x || !w.r;
+                    .r = calloc(most + 1, sizeof *w.r),
+                    .cut = calloc(most + 1, sizeof *w.cut)};
+    failed = !w.holds || !w.x || !w.r || !w.cut;
 #pragma omp for schedule(dynamic, 4)
     for (size_t j = j0; j < j1; j++) {
       double *to = value + (j - j0) * v->cells[0];
       w.member = v->member + v->start[j - j0];
-      w.count = v->start[j - j0 + 1] - v->start[j - j0];
+      w.bridges = v->start[j - j0 + 1] - v->start[j - j0];
+      for (w.count = 0; w.bridges && w.member[w.count] < v->n; w.bridges--)
+        w.count++;
+      w.z[0] = edge(v, 2, k);
+      w.z[1] = edge(v, 2, k + 1);
       w.y[0] = edge(v, 1, j);
       w.y[1] = edge(v, 1, j + 1);
       if (failed)
@@ -358,8 +520,9 @@ static int by_row(struct voxels *v, enum voxels_value what, size_t k, size_t j0,
       if (what == VOXELS_MIDPOINT)
         midpoint_row(&w, midpoint(v, 1, j), midpoint(v, 2, k), to);
       else
-        failed |= !fraction_row(&w, to);
+        failed |= !(v->walled ? walled_row : fraction_row)(&w, to);
     }
+    free(w.cut);
     free(w.r);
     free(w.x);
     free(w.holds);
@@ -380,9 +543,15 @@ struct block {
 
 enum { SMALL = 8 };
 
-static double surface_distance(const double p[3], const double c[3], double r) {
+/* To a sphere, or to a bridge, whose number comes after those of all
+   spheres. */
+static double surface_distance(const struct voxels *v, size_t i,
+                               const double p[3]) {
+  if (i >= v->n)
+    return bridge_distance(v, i - v->n, p);
+  const double *c = v->x + 3 * i;
   const double dx = p[0] - c[0], dy = p[1] - c[1], dz = p[2] - c[2];
-  return sqrt(dx * dx + dy * dy + dz * dz) - r;
+  return sqrt(dx * dx + dy * dy + dz * dz) - v->r[i];
 }
 
 /* Moves spheres that may be nearest somewhere in the block to the front;
@@ -400,8 +569,8 @@ static size_t sift(const struct block *b, uint32_t *candidate, size_t count) {
   double least = GSL_POSINF, scale = 0;
   for (size_t m = 0; m < count; m++) {
     const size_t i = candidate[m];
-    least = fmin(least, surface_distance(p, v->x + 3 * i, v->r[i]));
-    scale = fmax(scale, v->r[i]);
+    least = fmin(least, surface_distance(v, i, p));
+    scale = fmax(scale, i < v->n ? v->r[i] : v->bridge_radius);
   }
   /* a distance changes by no more than the way; and rounding */
   const double most =
@@ -409,7 +578,7 @@ static size_t sift(const struct block *b, uint32_t *candidate, size_t count) {
   size_t kept = 0;
   for (size_t m = 0; m < count; m++) {
     const uint32_t i = candidate[m];
-    if (surface_distance(p, v->x + 3 * i, v->r[i]) > most)
+    if (surface_distance(v, i, p) > most)
       continue;
     candidate[m] = candidate[kept];
     candidate[kept++] = i;
@@ -442,9 +611,11 @@ static void distances(struct block b, uint32_t *candidate, size_t count) {
       double least = GSL_POSINF;
       for (size_t m = 0; m < count; m++) {
         const size_t q = candidate[m];
-        const double d = surface_distance(p, v->x + 3 * q, v->r[q]);
+        const double d = surface_distance(v, q, p);
         least = d < least ? d : least;
       }
+      if (v->walled)
+        least = fmin(least, solid_beyond_distance(v->container, p));
       row[i] = least;
     }
   }
@@ -459,9 +630,10 @@ static int by_block(const struct voxels *v, size_t k, size_t j0, size_t j1,
     reduction(|                                                                \
               : failed)
   for (size_t s = 0; s < strips; s++) {
-    uint32_t *candidate = calloc(v->n + 1, sizeof *candidate);
+    const size_t all = v->n + v->bridges;
+    uint32_t *candidate = calloc(all + 1, sizeof *candidate);
     failed |= !candidate;
-    for (size_t i = 0; candidate && i < v->n; i++)
+    for (size_t i = 0; candidate && i < all; i++)
       candidate[i] = (uint32_t)i;
     const struct block b = {
         .v = v,
@@ -471,7 +643,7 @@ static int by_block(const struct voxels *v, size_t k, size_t j0, size_t j1,
         .j0 = j0,
         .value = value};
     if (candidate)
-      distances(b, candidate, v->n);
+      distances(b, candidate, all);
     free(candidate);
   }
   return failed ? GSL_ENOMEM : GSL_SUCCESS;
