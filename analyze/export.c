@@ -13,7 +13,8 @@
 #include "verbs.h"
 #include "writers.h"
 
-#define VOXELS "box cells binary distance type threads"
+#define SOLID " bridge reach walls thickness"
+#define VOXELS "box cells binary distance type threads" SOLID
 
 /* What can be written. */
 static const struct format {
@@ -57,7 +58,7 @@ static const struct format {
      .series = true},
     {.name = "stl",
      .help = "surfaces of the spheres, binary",
-     .takes = "scale offset facets equal-volume",
+     .takes = "scale offset box facets equal-volume merged cells" SOLID,
      .write = write_stl,
      .binary = true},
     {.name = "vti",
@@ -77,7 +78,7 @@ static const struct format {
      .write_files = write_mhd},
     {.name = "palabos",
      .help = "voxels as text, 0 or 1, z fastest, then y, then x",
-     .takes = "scale offset box cells threads",
+     .takes = "scale offset box cells threads" SOLID,
      .write = write_palabos},
     {.name = "freezethaw",
      .help = "folder for the paper's solver: positions, a part of Params",
@@ -317,7 +318,7 @@ static void export(const struct request *q, struct frames *frames) {
 int verb_export(int argc, char **argv) {
   struct frames_options input = {.may_be_empty = true};
   struct request q = {.write = {.facets = 320, .threads = 1},
-                      .shape = {.scale = 1}};
+                      .shape = {.scale = 1, .gap = GSL_NAN}};
   struct option_list box = {0}, cells = {1, {100}}, offset = {3, {0, 0, 0}};
   const char *format = NULL, *which = NULL, *type = "float64";
   /* clang-format off */
@@ -341,8 +342,23 @@ int verb_export(int argc, char **argv) {
       {.name = "box", .type = OPTION_LIST, .value = &box, .least = 6,
        .most = 6, .unit = "x0,x1,y0,y1,z0,z1 in m, else the base's cube",
        .help = "of voxels and fractions; of xyz and lammps, else by walls"},
+      {.name = "gap", .type = OPTION_DOUBLE, .value = &q.shape.gap,
+       .least = 0, .most = OPTION_MANY, .unit = "m",
+       .help = "shrink all radii until no two spheres are nearer"},
+      {.name = "bridge", .type = OPTION_DOUBLE, .value = &q.shape.bridge,
+       .least = 0, .most = OPTION_MANY, .unit = "m",
+       .help = "radius of cylinders that bridge contacts; 0: none"},
+      {.name = "reach", .type = OPTION_DOUBLE, .value = &q.shape.reach,
+       .least = 0, .most = OPTION_MANY, .unit = "m",
+       .help = "gap of contacts to bridge, at the radius of the dynamics"},
+      {.name = "walls", .type = OPTION_FLAG, .value = &q.shape.walls,
+       .help = "the container's walls are solid, too"},
+      {.name = "thickness", .type = OPTION_DOUBLE, .value = &q.shape.thickness,
+       .least = 0, .most = OPTION_MANY,
+       .unit = "m, 0: as the least radius; with --box: up to its faces",
+       .help = "of walls"},
       {.name = "cells", .type = OPTION_LIST, .value = &cells, .least = 1,
-       .most = 3, .unit = "N or NX,NY,NZ", .help = "voxels of vti and raw"},
+       .most = 3, .unit = "N or NX,NY,NZ", .help = "voxels, or of --merged along its longest side"},
       {.name = "binary", .type = OPTION_FLAG, .value = &q.write.binary,
        .help = "voxels: 1 where the midpoint is solid, else 0; a byte each"},
       {.name = "distance", .type = OPTION_FLAG, .value = &q.write.distance,
@@ -354,6 +370,8 @@ int verb_export(int argc, char **argv) {
       {.name = "facets", .type = OPTION_SIZE, .value = &q.write.facets,
        .least = 20, .most = 2e6, .unit = "the next of 20 k^2",
        .help = "of a sphere in stl"},
+      {.name = "merged", .type = OPTION_FLAG, .value = &q.write.merged,
+       .help = "stl: one closed surface of the union, --cells along it"},
       {.name = "equal-volume", .type = OPTION_FLAG,
        .value = &q.write.equal_volume,
        .help = "stl: the volume of the spheres, corners outside of them"},
@@ -386,6 +404,17 @@ int verb_export(int argc, char **argv) {
   if (q.chosen && which)
     die(EXIT_USAGE, "--frame and --frames: expected one of them");
   q.all = which ? !strcmp(which, "all") : q.format->many && !q.chosen;
+  if (q.write.merged && (option_find(options, "facets")->given ||
+                         q.write.equal_volume || cells.count > 1))
+    die(EXIT_USAGE, "--merged: expected --cells N, no facets of spheres");
+  if (!strcmp(format, "stl") && !q.write.merged &&
+      option_find(options, "cells")->given)
+    die(EXIT_USAGE, "--cells: expected --merged with it");
+  if (option_find(options, "reach")->given && !(q.shape.bridge > 0))
+    die(EXIT_USAGE, "--reach: expected --bridge with it");
+  if (option_find(options, "thickness")->given &&
+      (!q.shape.walls || q.shape.box_given))
+    die(EXIT_USAGE, "--thickness: expected --walls and no --box with it");
   if (q.write.binary && q.write.distance)
     die(EXIT_USAGE, "--binary and --distance: expected one of them");
   if (q.write.binary && option_find(options, "type")->given)
@@ -394,6 +423,7 @@ int verb_export(int argc, char **argv) {
   q.write.quiet = input.quiet;
   box_check(&box);
   q.shape.box_given = box.count;
+  q.shape.gap_given = option_find(options, "gap")->given;
   memcpy(q.shape.box, box.at, sizeof q.shape.box);
   memcpy(q.shape.offset, offset.at, sizeof q.shape.offset);
   take_cells(&cells, q.write.cells);

@@ -3,10 +3,12 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include "files/numbers.h"
+#include "files/radius_keys.h"
 #include "geometry/box.h"
 #include "measure.h"
 
@@ -52,6 +54,78 @@ static void move(struct shape *s) {
   }
   move_box(s, s->box);
   move_box(s, s->lattice);
+  move_box(s, s->container);
+}
+
+static double least_radius(const struct bed *b) {
+  double least = GSL_POSINF;
+  for (size_t i = 0; i < b->n; i++)
+    least = fmin(least, b->r[i]);
+  return least;
+}
+
+/* Pairs whose gap is small at the radius that the bed settled with. */
+static void find_bridges(struct shape *s, const struct shape_options *o) {
+  const struct bed *b = s->source;
+  const double least = least_radius(&s->bed);
+  if (!(o->bridge < least)) {
+    char why[120];
+    snprintf(why, sizeof why,
+             "--bridge %g: expected less than the least radius, %g m",
+             o->bridge, least);
+    frame_refuse(s->frames, b, why);
+  }
+  const double dynamics = radius_dynamics(s->header);
+  double *r = measure_alloc(b->n, sizeof *r);
+  for (size_t i = 0; i < b->n; i++)
+    r[i] = dynamics > 0 ? dynamics : b->r[i];
+  frame_check(
+      s->frames, b,
+      solid_pairs(b->n, b->x, r, o->reach, &s->ends, &s->solid.bridges));
+  free(r);
+}
+
+static void shrink(struct shape *s, const struct shape_options *o) {
+  struct bed *b = &s->bed;
+  const int status = solid_shrink(b->n, b->x, b->r, o->gap, &s->factor);
+  if (status == GSL_EDOM)
+    frame_refuse(s->frames, s->source,
+                 "--gap: two centres are no farther apart than that");
+  frame_check(s->frames, s->source, status);
+  for (size_t i = 0; i < b->n; i++)
+    b->r[i] *= s->factor;
+}
+
+/* Makes the box reach into the walls, and these solid. */
+static void add_walls(struct shape *s, const struct shape_options *o) {
+  const double thickness =
+      o->thickness > 0 ? o->thickness : least_radius(s->source);
+  bool any = false;
+  for (int k = 0; k < 6; k++) {
+    if (!s->walled[k])
+      continue;
+    const double outwards = k % 2 ? 1 : -1;
+    if (!o->box_given)
+      s->box[k] = s->container[k] + outwards * thickness;
+    any = any || outwards * (s->box[k] - s->container[k]) > 0;
+  }
+  if (!any)
+    frame_refuse(s->frames, s->source,
+                 o->box_given ? "--walls: none is within --box"
+                              : "--walls: the header has none along the axes");
+  s->solid.container = s->container;
+}
+
+/* The fraction that the spheres have with the radii that they came with. */
+static void measure_bare(struct shape *s) {
+  struct solid bare = s->solid;
+  struct solid_volume v;
+  bare.bridges = 0;
+  bare.r = s->source->r;
+  if (!frame_box_resolved(s->source, s->box))
+    return;
+  frame_check(s->frames, s->source, solid_volume(&bare, s->box, &v));
+  s->bare = v.spheres / box_volume(s->box);
 }
 
 void shape_make(struct shape *s, const struct shape_options *o,
@@ -60,6 +134,10 @@ void shape_make(struct shape *s, const struct shape_options *o,
                       .header = frames_header(f),
                       .frames = f,
                       .scale = o->scale,
+                      .box_given = o->box_given,
+                      .bare = GSL_NAN,
+                      .factor = 1,
+                      .changed = o->gap_given || o->bridge > 0,
                       .fraction = GSL_NAN};
   memcpy(s->offset, o->offset, sizeof s->offset);
   frame_check(f, b, bed_copy(&s->bed, b));
@@ -70,11 +148,24 @@ void shape_make(struct shape *s, const struct shape_options *o,
   lattice(s->header, &s->bed, s->lattice);
   if (o->box_given)
     memcpy(s->lattice, s->box, sizeof s->lattice);
+  for (int k = 0; k < 6; k++)
+    s->container[k] = k % 2 ? GSL_POSINF : GSL_NEGINF;
+  header_walls(s->header, s->container, s->walled);
+  s->solid = (struct solid){.n = s->bed.n, .x = s->bed.x, .r = s->bed.r};
+  if (o->gap_given)
+    shrink(s, o);
+  if (o->bridge > 0)
+    find_bridges(s, o);
+  if (o->walls)
+    add_walls(s, o);
+  if (o->gap_given)
+    measure_bare(s);
   memcpy(s->source_box, s->box, sizeof s->box);
   if (o->base > 0)
     s->scale = o->base / (s->box[1] - s->box[0]);
+  s->solid.ends = (const uint32_t(*)[2])s->ends;
+  s->solid.bridge_radius = s->scale * o->bridge;
   move(s);
-  s->solid = (struct solid){.n = s->bed.n, .x = s->bed.x, .r = s->bed.r};
 }
 
 static void __attribute__((format(printf, 2, 3)))
@@ -112,7 +203,17 @@ void shape_measure(struct shape *s) {
     number_format(s->box[k], text);
     add(s, k ? ",%s" : "%s", text);
   }
-  add(s, " (exact union)");
+  const double box = box_volume(s->box);
+  add(s,
+      s->solid.container ? " (exact union, walls %.12g of it)"
+                         : " (exact union)",
+      v.walls / box);
+  if (!isnan(s->bare))
+    add(s, "; gap: radii times %.9g, change of the fraction %+.12g", s->factor,
+        v.spheres / box - s->bare);
+  if (s->solid.bridge_radius > 0)
+    add(s, "; %zu bridges: change of the fraction %+.12g +- %.1g",
+        s->solid.bridges, v.bridges / box, v.error / box);
 }
 
 void shape_say(struct shape *s) {
@@ -122,6 +223,31 @@ void shape_say(struct shape *s) {
     warn("%s", s->more);
 }
 
+const char *shape_note(struct shape *s) {
+  if (!s->changed)
+    return NULL;
+  shape_measure(s);
+  return s->statement;
+}
+
+void shape_bounds(const struct shape *s, double box[6]) {
+  for (int k = 0; k < 3; k++) {
+    box[2 * k] = GSL_POSINF;
+    box[2 * k + 1] = GSL_NEGINF;
+    for (size_t i = 0; i < s->bed.n; i++) {
+      const double x = s->bed.x[3 * i + (size_t)k], r = s->bed.r[i];
+      box[2 * k] = fmin(box[2 * k], x - r);
+      box[2 * k + 1] = fmax(box[2 * k + 1], x + r);
+    }
+  }
+}
+
+double shape_least_radius(const struct shape *s) {
+  return least_radius(&s->bed);
+}
+
 void shape_free(struct shape *s) {
+  free(s->ends);
+  s->ends = NULL;
   bed_free(&s->bed);
 }

@@ -15,6 +15,12 @@ struct shape_options {
   double base; /* above 0: scale is such that the box is so wide along x */
   bool box_given;
   double box[6]; /* of fractions, voxels and surfaces; else the bed's base */
+  bool gap_given;
+  double gap;       /* between any two spheres, at least */
+  double bridge;    /* radius of bridges; 0: none */
+  double reach;     /* gap of spheres that are to be bridged, at most */
+  bool walls;       /* the container is solid, */
+  double thickness; /* so thick beyond the box; 0: the least radius */
 };
 
 struct shape {
@@ -25,11 +31,18 @@ struct shape {
   const struct bed *source; /* the frame as it came, and the box */
   double source_box[6];
   double scale, offset[3];
-  double box[6];     /* the one of the options, as it is handed over */
-  double lattice[6]; /* by walls and spheres, for formats with a cell */
+  bool box_given;
+  double box[6];       /* the one of the options, as it is handed over */
+  double lattice[6];   /* by walls and spheres, for formats with a cell */
+  double container[6]; /* infinite where there is no wall */
+  bool walled[6];
+  uint32_t (*ends)[2]; /* of the bridges */
+  double bare;         /* the spheres' fraction before --gap; NaN without it */
+  double factor;       /* of radii by it */
   /* what shape_measure finds */
   double fraction;     /* solid, of the box; NaN if that has no digits */
   char statement[400]; /* what is solid, for standard error and headers */
+  bool changed;        /* by --gap or --bridge */
   char more[400];      /* what a format says of it besides; or empty */
 };
 
@@ -46,6 +59,14 @@ void shape_add(struct shape *s, const char *format, ...)
 
 /* All of that, on a line of standard error. */
 void shape_say(struct shape *s);
+
+/* What --gap and --bridge did, for headers; NULL if they were not there. */
+const char *shape_note(struct shape *s);
+
+/* The box that holds the solid, without walls; infinite without spheres. */
+void shape_bounds(const struct shape *s, double box[6]);
+
+double shape_least_radius(const struct shape *s); /* infinite without any */
 
 void shape_free(struct shape *s);
 

@@ -24,13 +24,15 @@ void write_little_endian(FILE *out, const void *data, size_t size,
 }
 
 void write_vtk_start(FILE *out, const char *kind, const char *attributes,
-                     double t) {
+                     const char *note, double t) {
   fprintf(out,
           "<?xml version=\"1.0\"?>\n"
           "<!-- analyze export " DEM_VERSION "; lengths in m, t in s -->\n"
           "<VTKFile type=\"%s\" version=\"1.0\" byte_order=\"LittleEndian\" "
           "header_type=\"UInt64\">\n",
           kind);
+  if (note)
+    fprintf(out, "<!-- %s -->\n", note);
   fprintf(out,
           "<%s%s>\n<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" "
           "NumberOfTuples=\"1\" format=\"ascii\">%.17g</DataArray>\n"

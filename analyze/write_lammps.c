@@ -38,11 +38,13 @@ void write_lammps_data(FILE *out, const struct write_frame *f,
                        const struct write_options *o) {
   (void)o;
   static const char axes[] = "xyz";
+  const char *note = shape_note(f->shape);
   const struct bed *b = f->bed;
   fprintf(out,
-          "LAMMPS data file by analyze export " DEM_VERSION ", t = %.17g s\n\n"
+          "LAMMPS data file by analyze export " DEM_VERSION
+          ", t = %.17g s%s%s\n\n"
           "%zu atoms\n1 atom types\n\n",
-          b->t, b->n);
+          b->t, note ? "; " : "", note ? note : "", b->n);
   for (int k = 0; k < 3; k++)
     fprintf(out, "%.17g %.17g %clo %chi\n", f->shape->lattice[2 * k],
             f->shape->lattice[2 * k + 1], axes[k], axes[k]);

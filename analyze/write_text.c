@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Our own format, bare positions, and a table with a row of names and a column
  * of times. */
+#include <gsl/gsl_errno.h>
+#include "files/numbers.h"
+#include "files/radius_keys.h"
+#include "measure.h"
 #include "writers.h"
 
 void write_positions(FILE *out, const struct write_frame *f,
@@ -28,11 +32,36 @@ void write_csv(FILE *out, const struct write_frame *f,
   }
 }
 
+/* The radius that the bed settled with stays, as analyze radius has it. */
+static void note_gap(struct shape *s, struct bed_header *h) {
+  const struct bed *b = s->source;
+  char text[NUMBER_SIZE];
+  for (size_t i = 1; i < b->n; i++)
+    if (b->r[i] != b->r[0])
+      frame_refuse(s->frames, b,
+                   "--gap: spheres of several radii; a bed says of one what it "
+                   "was");
+  int status = GSL_SUCCESS;
+  if (b->n && !bed_header_get(h, "radius_dynamics")) {
+    number_format(b->r[0], text);
+    status = bed_header_set(h, "radius_dynamics", text);
+  }
+  if (status == GSL_SUCCESS && b->n)
+    status = radius_rewrite(&s->bed, h, s->bed.r[0], "gap");
+  if (status == GSL_SUCCESS)
+    status = bed_header_set(h, "gap", s->statement);
+  frame_check(s->frames, b, status);
+}
+
 void write_bed(FILE *out, const struct write_frame *f,
                const struct write_options *o) {
   (void)o;
-  struct bed_header header = frames_copy_header(f->shape->frames);
+  struct shape *s = f->shape;
+  struct bed_header header = frames_copy_header(s->frames);
+  const char *note = shape_note(s);
+  if (note)
+    note_gap(s, &header);
   bed_write_frame(out, &header, f->bed, true);
-  bed_write_status(out, frames_status(f->shape->frames));
+  bed_write_status(out, frames_status(s->frames));
   bed_header_free(&header);
 }

@@ -213,8 +213,13 @@ void write_palabos(FILE *out, const struct write_frame *f,
   for (size_t i = 0; i < s->n; i++)
     for (size_t k = 0; k < 3; k++)
       x[3 * i + k] = s->x[3 * i + 2 - k];
+  double container[6];
   struct solid solid = *s;
   solid.x = x;
+  for (int k = 0; k < 6 && s->container; k++)
+    container[k] = s->container[2 * (2 - k / 2) + k % 2];
+  if (s->container)
+    solid.container = container;
   struct write_options flags = *o;
   flags.binary = true;
   write_grid(out, f, &flags, &solid, turned, cells, write_flags);
@@ -246,7 +251,8 @@ void write_vti(FILE *out, const struct write_frame *f,
            (box[1] - box[0]) / (double)o->cells[0],
            (box[3] - box[2]) / (double)o->cells[1],
            (box[5] - box[4]) / (double)o->cells[2]);
-  write_vtk_start(out, "ImageData", attributes, f->bed->t);
+  write_vtk_start(out, "ImageData", attributes, shape_note(f->shape),
+                  f->bed->t);
   fprintf(out, "<Piece %s>\n<CellData Scalars=\"%s\">\n", extent, array.name);
   write_vtk_element(out, &array, &offset);
   fprintf(out, "</CellData>\n</Piece>\n</ImageData>\n"

@@ -40,7 +40,7 @@ void write_vtp(FILE *out, const struct write_frame *f,
       [CONNECTIVITY] = {"connectivity", "Int64", 1, 8, n, count},
       [OFFSETS] = {"offsets", "Int64", 1, 8, n, count + 1}};
   uint64_t offset = 0;
-  write_vtk_start(out, "PolyData", "", b->t);
+  write_vtk_start(out, "PolyData", "", shape_note(f->shape), b->t);
   fprintf(out,
           "<Piece NumberOfPoints=\"%zu\" NumberOfVerts=\"%zu\" "
           "NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n"

@@ -12,7 +12,7 @@
 
 struct write_options {
   size_t cells[3]; /* voxels along x, y, z */
-  bool binary, distance, single, equal_volume, quiet;
+  bool binary, distance, single, equal_volume, merged, quiet;
   size_t facets, threads;
 };
 
@@ -50,9 +50,9 @@ struct vtk_array {
 };
 
 /* The start of a VTK XML file: the opening tag of its kind of data set, with
-   attributes, and the time as field data. */
+   attributes, a note unless that is NULL, and the time as field data. */
 void write_vtk_start(FILE *out, const char *kind, const char *attributes,
-                     double t);
+                     const char *note, double t);
 
 /* An array's element; its data come at *offset, which moves on. */
 void write_vtk_element(FILE *out, const struct vtk_array *a, uint64_t *offset);

@@ -13,6 +13,7 @@
 #include <gsl/gsl_rng.h>
 #include "files/formats.h"
 #include "check.h"
+#include "geometry/solid.h"
 #include "geometry/volume.h"
 
 static char bed_path[] = "/tmp/test_export.XXXXXX";
@@ -76,12 +77,19 @@ static struct bed make_bed(void) {
     }
   }
   gsl_rng_free(rng);
-  const struct bed_header none = {0};
+  /* a floor, sides but for one, and a lid */
+  static const char *const walls[] = {"0 0 0 0 0 -1", "0 0 0 -1 0 0",
+                                      "1 0 0 1 0 0", "0 0 0 0 -1 0",
+                                      "0 0 1 0 0 1"};
+  struct bed_header header = {0};
+  for (int k = 0; k < 5; k++)
+    CHECK(bed_header_add(&header, "wall", walls[k]) == GSL_SUCCESS);
   const int fd = mkstemp(bed_path);
   FILE *out = fd < 0 ? NULL : fdopen(fd, "w");
   if (!CHECK(out))
     exit(check_done());
-  bed_write_frame(out, &none, &b, true);
+  bed_write_frame(out, &header, &b, true);
+  bed_header_free(&header);
   bed_write_status(out, "ok");
   CHECK(fclose(out) == 0);
   return b;
@@ -202,6 +210,97 @@ static void test_stl(const struct bed *b) {
               1, tol);
 }
 
+/* One surface, all of it, and clipped: closed, of the union's volume. */
+static void merged_case(const struct bed *b, const char *options,
+                        const double *clip) {
+  const struct bytes s = run(options);
+  const size_t count = whole_at(&s, 80, 4);
+  double whole[6], united = GSL_NAN, least = GSL_POSINF, longest = 0;
+  for (int k = 0; k < 3; k++) {
+    whole[2 * k] = GSL_POSINF;
+    whole[2 * k + 1] = GSL_NEGINF;
+    for (size_t i = 0; i < b->n; i++) {
+      const double x = b->x[3 * i + (size_t)k];
+      whole[2 * k] = fmin(whole[2 * k], x - b->r[i]);
+      whole[2 * k + 1] = fmax(whole[2 * k + 1], x + b->r[i]);
+      least = fmin(least, b->r[i]);
+    }
+  }
+  const double *box = clip ? clip : whole;
+  for (int k = 0; k < 3; k++)
+    longest = fmax(longest, box[2 * k + 1] - box[2 * k]);
+  CHECK(count > 1000 && s.count == 84 + 50 * count);
+  CHECK(closed(&s, 0, count));
+  CHECK(volume_union(b->n, b->x, b->r, box, &united) == GSL_SUCCESS);
+  double volume = 0;
+  for (size_t f = 0; f < count; f++) {
+    double x[3][3];
+    for (int k = 0; k < 3; k++)
+      corner(&s, f, k, x[k]);
+    for (int a = 0; a < 3; a++) {
+      const int p = (a + 1) % 3, q = (a + 2) % 3;
+      volume += x[0][a] * (x[1][p] * x[2][q] - x[1][q] * x[2][p]) / 6;
+    }
+  }
+  const double step = longest / 50;
+  CHECK_REL(volume, united, step * step / (least * least) / 3);
+  free(s.at);
+}
+
+static void test_merged(const struct bed *b) {
+  static const double box[6] = {-0.25, 1, 0, 1, 0.125, 1.25};
+  merged_case(b, "--format stl --merged --cells 50", NULL);
+  merged_case(
+      b, "--format stl --merged --cells 50 --box -0.25,1,0,1,0.125,1.25", box);
+}
+
+/* Bridges and walls are bodies behind the spheres. */
+static void test_bodies(const struct bed *b) {
+  const struct bytes s =
+      run("--format stl --facets 20 --bridge 0.05 --reach 0.05 --walls "
+          "--box -0.25,1.5,-0.25,1,-0.25,1.25");
+  const size_t spheres = 20 * b->n, sides = 8, prism = 4 * sides - 4;
+  const size_t count = whole_at(&s, 80, 4);
+  uint32_t(*ends)[2] = NULL;
+  size_t bridges = 0;
+  CHECK(solid_pairs(b->n, b->x, b->r, 0.05, &ends, &bridges) == GSL_SUCCESS);
+  CHECK(bridges > 5 && count == spheres + prism * bridges + 12 * 5);
+  for (size_t k = 0; k < bridges; k++) {
+    const double *p = b->x + 3 * ends[k][0], *q = b->x + 3 * ends[k][1];
+    double middle[3], length2 = 0, least, most;
+    for (int a = 0; a < 3; a++) {
+      middle[a] = (p[a] + q[a]) / 2;
+      length2 += gsl_pow_2(q[a] - p[a]);
+    }
+    CHECK(closed(&s, spheres + prism * k, prism));
+    const double volume =
+        facets_volume(&s, spheres + prism * k, prism, middle, &least, &most);
+    const double area =
+        (double)sides * sin(2 * M_PI / (double)sides) / 2 * 0.05 * 0.05;
+    CHECK_REL(volume, area * sqrt(length2), 1e-4);
+    CHECK_CLOSE(most, sqrt(length2 / 4 + 0.05 * 0.05), 4 * FLT_EPSILON);
+  }
+  static const double plate[5] = {0.25 * 1.25 * 1.5, 0.5 * 1.25 * 1.5,
+                                  0.25 * 1.75 * 1.5, 0.25 * 1.75 * 1.25,
+                                  0.25 * 1.75 * 1.25};
+  for (size_t k = 0; k < 5; k++) {
+    const size_t first = spheres + prism * bridges + 12 * k;
+    /* seen from its middle */
+    double c[3] = {0}, least, most;
+    for (size_t f = first; f < first + 12; f++)
+      for (int v = 0; v < 3; v++) {
+        double x[3];
+        corner(&s, f, v, x);
+        for (int a = 0; a < 3; a++)
+          c[a] += x[a] / 36;
+      }
+    CHECK(closed(&s, first, 12));
+    CHECK_REL(facets_volume(&s, first, 12, c, &least, &most), plate[k], 1e-6);
+  }
+  free(ends);
+  free(s.at);
+}
+
 /* --- VTK -------------------------------------------------------------------
  */
 
@@ -316,6 +415,8 @@ int main(void) {
   gsl_set_error_handler_off();
   struct bed b = make_bed();
   test_stl(&b);
+  test_merged(&b);
+  test_bodies(&b);
   test_vtp(&b);
   test_voxels(&b);
   unlink(bed_path);

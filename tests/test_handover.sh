@@ -273,4 +273,124 @@ check "parts of a shell around a sphere: $(parts)" [ "$(parts)" = '2 2' ]
 check "a bed that touches falls into parts: $(parts)" \
   awk '{exit !($1 > 150 && $2 == 1)}' <(parts)
 
+# --- gaps, bridges, walls ----------------------------------------------------
+nearest() { # the least gap of two spheres in a csv
+  tail -n +2 "$1" | awk -F , '
+    {for (k = 1; k <= 3; k++) x[NR, k] = $(k + 2); r[NR] = $6
+     for (i = 1; i < NR; i++) {
+       d = 0
+       for (k = 1; k <= 3; k++) d += (x[i, k] - $(k + 2)) ^ 2
+       d = sqrt(d) - r[i] - $6
+       if (NR == 2 || d < least) least = d}}
+    END {printf "%.17g", least}'
+}
+for gap in 0 0.004; do
+  check "gap $gap" hand --format csv --gap $gap "$T/bed" >"$T/apart.csv"
+  near "gap $gap is the least gap" "$(nearest "$T/apart.csv")" $gap 1e-15
+  near "gap $gap: the exact change" "$(stated 'change of the fraction')" \
+    "$(awk -v a="$(union "$T/apart.csv")" -v b="$(union "$T/bed")" \
+      'BEGIN {printf "%.17g", a - b}')" 1e-11
+  near "gap $gap: the fraction left" "$(stated 'solid fraction')" \
+    "$(union "$T/apart.csv")" 1e-11
+done
+hand --format csv --gap 0.1 "$T/two.csv" >"$T/apart.csv"
+check 'a gap that is there changes nothing' cmp -s "$T/apart.csv" \
+  <(hand --format csv "$T/two.csv")
+refuse 'a gap too wide' 3 '--gap: two centres' --format csv --gap 0.6 "$T/two.csv"
+hand --format bed --gap 0.004 "$T/bed" >"$T/apart"
+check 'a bed keeps the radius of its dynamics' \
+  grep -q '^# radius_dynamics=0.1$' "$T/apart"
+check 'a bed says what the gap did' \
+  grep -q '^# gap=.*radii times 0.[0-9]*, change of the fraction -' "$T/apart"
+check 'a bed with a gap is a bed' [ "$("$B/analyze" "$T/apart" | wc -l)" = 2 ]
+refuse 'a bed of two radii' 3 'several radii' --format bed --gap 0.1 "$T/two.csv"
+for format in xyz lammps-data vtp vti stl; do
+  check "$format has the change in its header" grep -aq \
+    'gap: radii times 0.[0-9]*, change of\|spheres, solid fraction' \
+    <(hand --format $format --gap 0.004 "$T/bed" | head -n 4)
+  check "$format: and not without one" [ "$(hand --format $format "$T/bed" |
+    head -n 4 | grep -ac 'change of\|solid fraction')" = 0 ]
+done
+hand --format xyz --gap 0.004 "$T/bed" >"$T/apart.xyz"
+check 'xyz with a note is read again' [ "$("$B/analyze" "$T/apart.xyz" |
+  wc -l)" = 2 ]
+
+# two that touch: pi X^4/(2 r) to the leading order, here to all of them
+printf 'x,y,z,r\n.3,.5,.5,.2\n.7,.5,.5,.2\n' >"$T/pair.csv"
+hand --format raw --cells 50 --bridge 0.1 "$T/pair.csv" >"$T/raw"
+near 'bridge: one' "$(sed -n 's/.*; \([0-9]*\) bridges.*/\1/p' "$T/said")" 1 0
+near 'bridge: its collar' "$(stated 'change of the fraction')" \
+  "$(awk 'BEGIN {r = 0.2; x = 0.1; pi = atan2(0, -1); s = sqrt(r * r - x * x)
+    cap = pi * (r - s) ^ 2 * (2 * r + s) / 3
+    printf "%.17g", 2 * (pi * x * x * (r - s) - cap)}')" 1e-13
+near 'bridge: the voxels have it' "$(stated 'mean solid fraction')" \
+  "$(stated 'solid fraction')" 1e-5
+check 'bridge: one solid' [ "$(parts)" = '1 1' ]
+printf 'x,y,z,r\n.29,.5,.5,.2\n.71,.5,.5,.2\n' >"$T/pair.csv"
+hand --format raw --bridge 0.1 "$T/pair.csv" >"$T/raw"
+check 'no bridge where spheres do not touch' [ "$(parts)" = '2 1' ]
+hand --format raw --bridge 0.1 --reach 0.03 "$T/pair.csv" >"$T/raw"
+check 'but within reach' [ "$(parts)" = '1 1' ]
+"$B/analyze" radius --quiet --keep touching "$T/bed" >"$T/touching"
+hand --format raw --bridge 0.02 "$T/touching" >"$T/raw"
+check "bridges hold a bed that touches together: $(parts)" \
+  awk '{exit !($1 < 5)}' <(parts)
+for format in positions csv xyz lammps lammps-data vtp bed; do
+  refuse "no bridges in $format" 2 "--bridge: not for --format $format" \
+    --format $format --bridge 0.01 "$T/bed"
+done
+refuse 'a bridge too thick' 3 'less than the least radius, 0.1 m' --format raw \
+  --bridge 0.1 "$T/bed"
+refuse 'reach alone' 2 '--reach: expected --bridge' --format raw --reach 0.1 \
+  "$T/bed"
+
+# walls: five of them, in a box of 12 cells of 0.1 m with one beyond each
+hand --format raw --cells 12,12,11 --walls "$T/bed" >"$T/raw"
+near 'walls: the share of them' "$(stated 'walls')" \
+  "$(awk 'BEGIN {printf "%.17g", 1 - 1 / (1.2 * 1.2 * 1.1)}')" 1e-11
+near 'walls: and the bed' "$(stated 'solid fraction')" \
+  "$(awk -v u="$(union "$T/bed")" 'BEGIN {v = 1.2 * 1.2 * 1.1
+    printf "%.17g", (v - 1 + u) / v}')" 1e-11
+near 'walls: voxels' "$(stated 'mean solid fraction')" \
+  "$(stated 'solid fraction')" 1e-11
+check 'walls: all cells beyond them' awk '
+  {i = (NR - 1) % 12; j = int((NR - 1) / 12) % 12; k = int((NR - 1) / 144)
+   if (i == 0 || i == 11 || j == 0 || j == 11 || k == 0) {n++
+     d = $1 - 1; if (!(d < 1e-12 && -d < 1e-12)) bad = 1}}
+  END {exit bad || NR != 1584 || n != 584}' <(od -An -v -w8 -tf8 "$T/raw")
+hand --format raw --binary --cells 12 --walls --thickness 0.5 "$T/bed" >"$T/raw"
+check 'walls: as thick as wanted' grep -q 'box -0.5,1.5,-0.5,1.5,-0.5,1 ' \
+  "$T/said"
+hand --format palabos --cells 4,5,6 --walls "$T/wide" | tr ' ' '\n' |
+  tr -d '\n' >"$T/text"
+hand --format raw --binary --cells 4,5,6 --walls "$T/wide" >"$T/raw"
+check 'walls: palabos turns them, too' [ "$(od -An -v -w1 -tu1 "$T/raw" | awk '
+  {v[NR - 1] = $1} END {for (i = 0; i < 4; i++) for (j = 0; j < 5; j++)
+    for (k = 0; k < 6; k++) printf "%d", v[i + 4 * (j + 5 * k)]}')" = \
+  "$(cat "$T/text")" ]
+refuse 'no walls' 3 '--walls: the header has none' --format raw --walls \
+  "$T/two.csv"
+refuse 'walls beyond the box' 3 '--walls: none is within --box' --format raw \
+  --walls --box 0.1,0.9,0.1,0.9,0.1,0.9 "$T/bed"
+refuse 'thickness alone' 2 '--thickness: expected --walls' --format raw \
+  --thickness 0.1 "$T/bed"
+
+# --- surfaces ----------------------------------------------------------------
+hand --format stl --merged --cells 60 "$T/bed" >"$T/stl"
+near 'merged: the volume is as stated' "$(stated 'volume')" \
+  "$(stated 'of the exact')" 0.01
+check 'merged: within the bound' awk -v d="$(stated 'that is')" \
+  -v b="$(stated '(step\/r)^2\/3 =')" 'BEGIN {exit !(b > 0 && d < b && -d < b)}'
+refuse 'merged: facets' 2 '--merged: expected --cells' --format stl --merged \
+  --facets 80 "$T/bed"
+refuse 'cells of bodies' 2 '--cells: expected --merged' --format stl --cells 9 \
+  "$T/bed"
+refuse 'merged: too fine for its numbers' 3 'too small for single precision' \
+  --format stl --merged --offset 10000,0,0 "$T/bed"
+refuse 'merged: nothing' 3 'no spheres' --format stl --merged \
+  --radius 0.1 <(printf 'ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n0\nITEM: BOX BOUNDS ff ff ff\n0 1\n0 1\n0 1\nITEM: ATOMS id x y z\n')
+printf 'x,y,z,r\n1e6,1e6,1e6,0.01\n' >"$T/far.csv"
+hand --format stl "$T/far.csv" >"$T/stl"
+check 'facets too small for their place' grep -q 'single precision' "$T/said"
+
 check_done
