@@ -1,0 +1,131 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Programs that are ended leave nothing half-written and nothing running, and end
+# as signals have it.
+. tests/harness.sh
+
+export TMPDIR=$T/scratch
+D=$T/d
+mkdir "$D" "$TMPDIR"
+"$B/settle" --quiet --count 20 --base 0.4,0.4 --time 0.2 --frames 3 >"$T/bed"
+
+waits() { # CONDITION...: until it holds, for ten seconds
+  local k
+  for ((k = 0; k < 500; k++)); do
+    "$@" && return
+    sleep 0.02
+  done
+  return 1
+}
+there() {
+  compgen -G "$1" >/dev/null
+}
+gone() {
+  ! there "$1"
+}
+number() {
+  kill -l "$1"
+}
+
+# A run of hours, with files beside it
+for signal in HUP INT QUIT TERM XCPU ABRT; do
+  # bash has its background ignore INT and QUIT: env sets them right again
+  env --default-signal "$B/settle" --quiet --count 200 --method merson \
+    --time 1000 --log "$D/log" --stats "$D/stats" >"$T/out" 2>"$T/err" &
+  pid=$!
+  check "$signal: it has begun" waits there "$D/log.partial-*"
+  kill -s $signal $pid
+  wait $pid 2>/dev/null
+  status=$?
+  check "$signal: the status is $status" test $status = $((128 + $(number $signal)))
+  check "$signal: nothing is left" test -z "$(ls "$D")"
+done
+# as nohup starts it
+(trap '' HUP; exec "$B/settle" --quiet --count 200 --method merson --time 1000 \
+  --log "$D/log" >"$T/out" 2>"$T/err") &
+pid=$!
+check 'nohup: it has begun' waits there "$D/log.partial-*"
+kill -s HUP $pid
+sleep 0.2
+check 'nohup: it goes on' kill -0 $pid
+kill -s TERM $pid
+wait $pid 2>/dev/null
+check 'nohup: nothing is left' test -z "$(ls "$D")"
+
+# A picture that takes a while: its program goes too
+mkdir "$T/bin"
+printf '#!/bin/sh\necho $$ >"%s/pid"\nexec sleep 60\n' "$T" >"$T/bin/gnuplot"
+chmod +x "$T/bin/gnuplot"
+for signal in INT TERM; do
+  for verb in "draw --output $D/x.png" "movie --output $D/x.gif"; do
+    rm -f "$T/pid"
+    # shellcheck disable=SC2086 # several words
+    PATH=$T/bin:$PATH env --default-signal "$B/analyze" $verb "$T/bed" \
+      >"$T/out" 2>"$T/err" &
+    pid=$!
+    check "$verb, $signal: gnuplot runs" waits test -s "$T/pid"
+    kill -s $signal $pid
+    wait $pid 2>/dev/null
+    status=$?
+    check "$verb, $signal: the status is $status" test $status = \
+      $((128 + $(number $signal)))
+    check "$verb, $signal: gnuplot is ended" \
+      waits eval '! kill -0 "$(cat "$T/pid")" 2>/dev/null'
+    check "$verb, $signal: nothing is left" test -z "$(ls "$D")$(ls "$TMPDIR")"
+  done
+done
+# and its program's own end is an error as before
+printf '#!/bin/sh\nkill -TERM $$\n' >"$T/bin/gnuplot"
+PATH=$T/bin:$PATH "$B/analyze" draw --output "$D/x.png" "$T/bed" 2>"$T/err"
+status=$?
+check 'gnuplot ended by a signal' test $status = 1 -a \
+  "$(grep -c 'gnuplot: ended by signal 15' "$T/err")" = 1
+check 'nothing is left' test -z "$(ls "$D")$(ls "$TMPDIR")"
+
+# A reader that goes away: the end comes at once, not after all is computed.
+quiet_end() { # NAME PROGRAM ARGUMENT...
+  local start=$SECONDS
+  timeout 30 "$B/$2" "${@:3}" 2>"$T/err" | head -n 1 >"$T/out"
+  status=${PIPESTATUS[0]}
+  check "$1 | head -n 1: status $status" test "$status" = 1
+  check "$1 | head -n 1: without a word" test ! -s "$T/err"
+  check "$1 | head -n 1: soon" test $((SECONDS - start)) -lt 10
+  check "$1 | head -n 1: the line" test -s "$T/out"
+}
+quiet_end bounce bounce --samples 1000000000
+quiet_end profile analyze profile --points 1000000 "$T/bed"
+quiet_end settle settle --quiet --count 8 --method merson --time 1000 \
+  --frames 1000000 --log "$D/log"
+check 'nothing is left' test -z "$(ls "$D")"
+# the same where the caller has pipes' signals ignored
+(trap '' PIPE; quiet_end 'ignored' bounce --samples 1000000000
+  check_done >"$T/sum")
+check 'ignored signals: as well' grep -q ' 0 failed' "$T/sum"
+# Another pipe than standard output is an error that is named, and the bed is
+# not lost.
+mkfifo "$D/fifo"
+head -n 1 "$D/fifo" >"$T/line" &
+timeout 60 "$B/settle" --quiet --count 8 --method merson --time 2 \
+  --log "$D/fifo" >"$T/out" 2>"$T/err"
+status=$?
+check "a pipe beside it breaks: status $status" test $status = 1
+check 'a pipe beside it breaks: named' grep -q 'fifo: Broken pipe' "$T/err"
+check 'a pipe beside it breaks: the bed is there' grep -q '^# status=ok' "$T/out"
+rm "$D/fifo"
+
+# A file that grows too large is an error of its write, by name.
+limited() { # NAME PATTERN PROGRAM ARGUMENT...
+  (ulimit -f 8; exec timeout 30 "$B/$3" "${@:4}" >"$D/out" 2>"$T/err")
+  status=$?
+  check "$1, too large: status $status" test $status = 1
+  check "$1, too large: named" grep -Eq "$2: File too large" "$T/err"
+  rm -f "$D/out"
+  check "$1, too large: nothing is left" test -z "$(ls "$D")"
+}
+limited bounce 'standard output' bounce --samples 5000
+limited settle 'standard output' settle --quiet --count 20 --time 0.1 --frames 50
+limited 'settle --log' log settle --quiet --count 2 --method merson --time 4 --log "$D/log"
+limited profile 'standard output' analyze profile --points 2000 "$T/bed"
+limited 'export --output' 'x.csv' analyze export --format csv --output "$D/x.csv" \
+  "$T/bed"
+check_done
