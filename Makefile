@@ -24,7 +24,7 @@ PREFIX ?= /usr/local
 all: $(B)/bounce $(B)/settle $(B)/analyze ## build the programs
 
 # What the compiler, its target and the libraries offer.
-ifneq ($(filter-out clean help deps,$(or $(MAKECMDGOALS),all)),)
+ifneq ($(filter-out clean help deps uninstall,$(or $(MAKECMDGOALS),all)),)
 $(shell CC='$(CC)' CPPFLAGS='$(CPPFLAGS)' CFLAGS='$(CFLAGS)' \
   LDFLAGS='$(LDFLAGS)' common/platform/probe.sh $(B)/config.mk)
 include $(B)/config.mk
@@ -136,12 +136,46 @@ demo: all ## settle 200 spheres, print the solid fraction, draw the bed
 	gnuplot -c plots/draw/bed.gp $(B)/demo.tsv $(B)/demo.png
 	@echo "the bed: $(B)/demo.tsv, its picture: $(B)/demo.png"
 
-install: all ## copy the programs to PREFIX/bin, what they draw with to PREFIX/share
-	install -d $(DESTDIR)$(PREFIX)/bin
-	install $(B)/bounce $(B)/settle $(B)/analyze $(DESTDIR)$(PREFIX)/bin
-	install -d $(DESTDIR)$(PREFIX)/share/dem/plots
+# Man pages: each program and verb prints its own.
+VERBS = $(shell $(B)/analyze --complete | grep -v '^-')
+$(B)/man/.done: $(B)/bounce $(B)/settle $(B)/analyze
+	@rm -rf $(@D) && mkdir -p $(@D)
+	for p in bounce settle analyze; do \
+	  $(B)/$$p --man > $(@D)/$$p.1 || exit; \
+	done
+	for v in $(VERBS); do \
+	  $(B)/analyze $$v --man > $(@D)/analyze-$$v.1 || exit; \
+	done
+	@touch $@
+
+man: $(B)/man/.done ## man pages of the programs and their verbs, in build/man
+
+BINDIR = $(DESTDIR)$(PREFIX)/bin
+SHARE = $(DESTDIR)$(PREFIX)/share
+COMPLETIONS = $(SHARE)/bash-completion/completions
+# The folders that are ours alone, and those that others use too.
+OWN = $(SHARE)/dem/plots $(SHARE)/dem $(SHARE)/doc/dem/docs $(SHARE)/doc/dem
+SHARED = $(COMPLETIONS) $(SHARE)/bash-completion $(SHARE)/man/man1 \
+  $(SHARE)/man $(SHARE)/doc $(SHARE) $(BINDIR) $(DESTDIR)$(PREFIX)
+install: all man ## programs, man pages, completion, pages, what draw needs; PREFIX, DESTDIR
+	install -d $(BINDIR) $(SHARE)/man/man1 $(COMPLETIONS) $(OWN)
+	install $(B)/bounce $(B)/settle $(B)/analyze $(BINDIR)
+	install -m 644 $(B)/man/*.1 $(SHARE)/man/man1
+	for p in bounce settle analyze; do \
+	  install -m 644 common/program/completion.bash $(COMPLETIONS)/$$p || exit; \
+	done
 	install -m 644 plots/style.gp plots/draw/{balls,bed,movie}.gp \
-	  $(DESTDIR)$(PREFIX)/share/dem/plots
+	  $(SHARE)/dem/plots
+	install -m 644 README.md CHANGELOG.md LICENSE $(SHARE)/doc/dem
+	install -m 644 docs/*.md docs/*.png $(SHARE)/doc/dem/docs
+
+# Folders go only if they are empty, those of others only in a DESTDIR.
+uninstall: ## remove what install has brought
+	rm -f $(BINDIR)/{bounce,settle,analyze} \
+	  $(SHARE)/man/man1/{bounce,settle,analyze,analyze-*}.1 \
+	  $(COMPLETIONS)/{bounce,settle,analyze}
+	rm -rf $(SHARE)/dem $(SHARE)/doc/dem
+	$(if $(DESTDIR),-rmdir $(SHARED) 2>/dev/null)
 
 clean: ## remove everything that was made
 	rm -rf $(B)
@@ -152,4 +186,4 @@ help: ## this list
 
 include plots/rules.mk plots/captions.mk
 
-.PHONY: all check fuzz deps demo install clean help
+.PHONY: all check fuzz deps demo man install uninstall clean help
