@@ -9,7 +9,7 @@
 #include "program/files.h"
 #include "frames.h"
 #include "measure.h"
-#include "program/options.h"
+#include "program/command_line.h"
 #include "verbs.h"
 #include "writers.h"
 

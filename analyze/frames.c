@@ -5,7 +5,7 @@
 #include <unistd.h>
 #include <gsl/gsl_errno.h>
 #include "program/files.h"
-#include "program/options.h"
+#include "program/command_line.h"
 
 void frames_open(struct frames *f, const struct frames_options *o, int argc,
                  char **argv, int first) {

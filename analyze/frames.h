@@ -5,7 +5,7 @@
 
 #include <float.h>
 #include "files/formats.h"
-#include "program/options.h"
+#include "program/command_line.h"
 
 struct frames_options {
   bool allow_partial; /* take what is complete of a file without a good end */

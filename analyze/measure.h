@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 #include "frames.h"
-#include "program/options.h"
+#include "program/command_line.h"
 #include "model/scene.h"
 
 /* Row of an option table: a box, into a struct option_list; without numbers

@@ -7,7 +7,7 @@
 
 #include "files/bed_io.h"
 #include "program/files.h"
-#include "program/options.h"
+#include "program/command_line.h"
 
 struct picture {
   const char *color;       /* one of picture_colors */

@@ -12,7 +12,7 @@
 #include "geometry/area.h"
 #include "frames.h"
 #include "measure.h"
-#include "program/options.h"
+#include "program/command_line.h"
 #include "verbs.h"
 
 static const char *const axes[] = {"x", "y", "z", NULL};

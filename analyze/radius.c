@@ -10,7 +10,7 @@
 #include "geometry/box.h"
 #include "frames.h"
 #include "measure.h"
-#include "program/options.h"
+#include "program/command_line.h"
 #include "files/radius_keys.h"
 #include "measure/radius.h"
 #include "verbs.h"

@@ -9,7 +9,7 @@
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
-#include "program/options.h"
+#include "program/command_line.h"
 #include "geometry/vec3.h"
 #include "geometry/surface.h"
 #include "measure.h"

@@ -9,7 +9,7 @@
 #include <unistd.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
-#include "program/options.h"
+#include "program/command_line.h"
 #include "geometry/voxels.h"
 #include "geometry/parts.h"
 #include "measure.h"

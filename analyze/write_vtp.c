@@ -2,7 +2,7 @@
 /* VTK XML PolyData: one vertex per sphere, with its radius and motion as point
    data; raw appended, so that numbers are exact and files small. */
 #include <stdlib.h>
-#include "program/options.h"
+#include "program/command_line.h"
 #include "writers.h"
 
 enum {

@@ -9,7 +9,7 @@
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_poly.h>
 #include <gsl/gsl_roots.h>
-#include "program/options.h"
+#include "program/command_line.h"
 #include "model/scene.h"
 #include "program/integration.h"
 #include "program/shared_options.h"

@@ -5,7 +5,7 @@
 
 #include "model/fill.h"
 #include "steppers/integrate.h"
-#include "program/options.h"
+#include "program/command_line.h"
 #include "program/scene_options.h"
 
 struct settings {

@@ -4,7 +4,7 @@
 #ifndef STABILITY_VERBS_H
 #define STABILITY_VERBS_H
 
-#include "program/options.h"
+#include "program/command_line.h"
 
 int verb_limits(int argc, char **argv);
 int verb_regions(int argc, char **argv);

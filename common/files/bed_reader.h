@@ -5,8 +5,10 @@
 #ifndef BED_READER_H
 #define BED_READER_H
 
+#include <stdio.h>
+#include "files/bed_io.h"
 #include "files/columns.h"
-#include "files/formats.h"
+#include "files/reader_options.h"
 
 enum {
   MOST_FIELDS = 256,      /* of a row */
@@ -14,6 +16,8 @@ enum {
   LONGEST_LINE = 1 << 20, /* bytes; what is longer is not one of our formats */
   BLANKS = 0              /* separator: any number of spaces and tabs */
 };
+
+struct bed_reader;
 
 /* A format: its name, what it is, whether a file that begins with this line is
    of it, the bytes of what its reader has to remember (zeros at first), and

@@ -10,20 +10,12 @@
 #include <stdbool.h>
 #include <stdio.h>
 #include "files/bed_io.h"
+#include "files/reader_options.h"
 
 struct bed_reader;
-struct bed_format;
 
 /* The one with this name, NULL if there is none; format_bed's is "bed". */
 const struct bed_format *bed_format_named(const char *name);
-
-struct bed_reader_options {
-  bool allow_partial; /* take what is complete of a file without a good end */
-  bool may_be_empty;  /* a stated count of no spheres is a frame */
-  double radius;      /* of spheres that come without one (m); 0: none */
-  double largest;     /* magnitude of any number but an id; 0: no limit */
-  const struct bed_format *format; /* NULL: the first line says which */
-};
 
 /* Reads from an open stream, which need not be a file and has to stay open as
    long as the reader; so has name, which is for messages. GSL_ENOMEM. */

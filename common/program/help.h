@@ -6,7 +6,24 @@
 #define HELP_H
 
 #include "program/options.h"
-#include "program/verbs.h"
+
+struct program {
+  const char *name, *summary, *usage, *example;
+  struct option_spec *options; /* ends with a NULL name */
+};
+
+/* A program whose first argument names what it does (verbs.h). */
+struct verb {
+  const char *name, *summary;
+  /* argv[0] is the verb; returns the exit status. */
+  int (*run)(int argc, char **argv);
+};
+
+struct verbs {
+  const char *program, *summary;
+  const struct verb *at;          /* ends with a NULL name */
+  int (*otherwise)(int, char **); /* without a verb; or NULL */
+};
 
 /* The verbs that help is to name, of a program that has some. */
 void help_verbs(const struct verbs *v);

@@ -5,7 +5,7 @@
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include "files/numbers.h"
-#include "program/options.h"
+#include "program/messages.h"
 
 /* Spheres that a method with a dense Jacobian is let loose on: it solves a
    system at a cost that grows as n^3. */

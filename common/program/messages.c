@@ -1,33 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#define _POSIX_C_SOURCE 200809L
 #include "program/messages.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 #include <gsl/gsl_errno.h>
-#include "program/litter.h"
 
 static const char *name = "?", *verb; /* set once */
 
-void program_begin(const char *name_, const char *verb_) {
-  name = name_;
+void message_name(const char *program, const char *verb_) {
+  name = program;
   verb = verb_;
-  gsl_set_error_handler_off();
-  litter_watch();
-  /* A closed standard stream would be given to the next file opened. Read-only,
-     so that writing to it still fails. */
-  int fd;
-  do
-    fd = open("/dev/null", O_RDONLY);
-  while (fd >= 0 && fd <= STDERR_FILENO);
-  if (fd >= 0)
-    close(fd);
 }
 
 const char *program_name(void) {

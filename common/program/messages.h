@@ -12,11 +12,9 @@ enum exit_code {
   EXIT_LIMIT = 5
 };
 
-/* Sets up a program: its name for messages, GSL's error handler off, what goes
-   with it when it ends (program/litter.h). verb: of several, the one that runs,
-   or NULL. Both texts must live on. */
-void program_begin(const char *name, const char *verb);
-/* As program_begin had them. */
+/* The program's name, and the verb of several that runs or NULL; both texts must
+   live on. */
+void message_name(const char *program, const char *verb);
 const char *program_name(void);
 const char *program_verb(void);
 

@@ -1,16 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "program/options.h"
 
-#include <getopt.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include "files/numbers.h"
-#include "program/help.h"
-#include "program/suggest.h"
+#include "program/messages.h"
 
 static const char *expected(const char *format, ...) {
   static _Thread_local char text[640];
@@ -181,69 +178,4 @@ void option_default(const struct option_spec *o, char *text, size_t size) {
     text[0] = 0;
   if (!*text && o->unset)
     o->unset(text, size);
-}
-
-enum { MOST_OPTIONS = 64, FIRST_OPTION = 1000 };
-
-/* Why getopt_long did not take an argument, and what may have been meant. */
-static _Noreturn void refuse(const struct option table[], char reason,
-                             const char *argument) {
-  if (reason == ':' || optopt >= FIRST_OPTION)
-    die(EXIT_USAGE, "--%s: %s", table[optopt - FIRST_OPTION].name,
-        reason == ':' ? "expected an argument" : "takes no argument");
-  if (optopt)
-    die(EXIT_USAGE, "-%c: no such option", optopt);
-  const char *names[MOST_OPTIONS + 3];
-  char word[64];
-  size_t count = 0, begun = 0;
-  snprintf(word, sizeof word, "%.*s", (int)strcspn(argument + 2, "="),
-           argument + 2);
-  for (; table[count].name; count++) {
-    names[count] = table[count].name;
-    begun += !strncmp(names[count], word, strlen(word));
-  }
-  if (begun > 1)
-    die(EXIT_USAGE, "--%s: stands for several options", word);
-  const char *meant = suggest(word, names, count);
-  if (meant)
-    die(EXIT_USAGE, "--%s: no such option; did you mean --%s?", word, meant);
-  die(EXIT_USAGE, "--%s: no such option", word);
-}
-
-int options_parse(const struct program *p, int argc, char **argv) {
-  struct option table[MOST_OPTIONS + 3] = {{0}};
-  size_t count = 0;
-  program_begin(p->name, program_verb());
-  for (; p->options[count].name; count++) {
-    if (count == MOST_OPTIONS)
-      die(EXIT_IO, "internal error: more than %d options", MOST_OPTIONS);
-    table[count] = (struct option){
-        .name = p->options[count].name,
-        .has_arg = p->options[count].type == OPTION_FLAG ? no_argument
-                                                         : required_argument,
-        .val = FIRST_OPTION + (int)count};
-  }
-  const int help = FIRST_OPTION + (int)count, version = help + 1;
-  table[count] = (struct option){.name = "help", .val = help};
-  table[count + 1] = (struct option){.name = "version", .val = version};
-  if (argc > 1 && !strcmp(argv[argc - 1], "--man"))
-    help_print_man(p);
-  if (argc > 1 && !strcmp(argv[argc - 1], "--complete"))
-    help_print_completion(p);
-  opterr = 0;
-  int found;
-  while ((found = getopt_long(argc, argv, ":h", table, NULL)) != -1) {
-    if (found == '?' || found == ':')
-      refuse(table, (char)found, argv[optind - 1]);
-    if (found == help || found == 'h')
-      help_print(p);
-    if (found == version)
-      help_print_version(p);
-    struct option_spec *o = &p->options[found - FIRST_OPTION];
-    const char *want = option_set(o, optarg);
-    if (want)
-      die(EXIT_USAGE, "--%s %s: expected %s", o->name, optarg, want);
-    o->given = true;
-  }
-  return optind;
 }

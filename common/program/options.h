@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Command lines, help, man pages, completion and parameter headers from one
-   table. */
+/* Options by name: tables that command lines (command_line.h), help (help.h) and
+   the keys of a bed's header (scene_options.h) share. */
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
 #include <stdbool.h>
 #include <stddef.h>
 #include "files/numbers.h"
-#include "program/messages.h"
 
 enum option_type {
   OPTION_FLAG,   /* bool */
@@ -50,17 +49,6 @@ struct option_spec {
 
 /* No limit: the largest count that an option can hold. */
 #define OPTION_MANY NUMBER_MOST_WHOLE
-
-struct program {
-  const char *name, *summary, *usage, *example;
-  struct option_spec *options; /* ends with a NULL name */
-};
-
-/* Sets up a program (program_begin) and parses its command line; --help, -h and
-   --version print and exit, and so do two that are not listed and must come
-   last: --man, the page for man, and --complete, what a shell may complete. A
-   mistake exits with EXIT_USAGE. Returns the index of the first operand. */
-int options_parse(const struct program *p, int argc, char **argv);
 
 /* Sets one option from text. NULL, or what was expected, in a static buffer of
    the calling thread's. */

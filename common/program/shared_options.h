@@ -4,8 +4,7 @@
 #define SHARED_OPTIONS_H
 
 #include <float.h>
-#include "program/options.h"
-#include "program/scene_options.h"
+#include "program/command_line.h"
 
 /* clang-format off */
 

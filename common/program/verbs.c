@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 #include "program/help.h"
+#include "program/begin.h"
 #include "program/messages.h"
 #include "program/suggest.h"
 

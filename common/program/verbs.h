@@ -3,17 +3,7 @@
 #ifndef PROGRAM_VERBS_H
 #define PROGRAM_VERBS_H
 
-struct verb {
-  const char *name, *summary;
-  /* argv[0] is the verb; returns the exit status. */
-  int (*run)(int argc, char **argv);
-};
-
-struct verbs {
-  const char *program, *summary;
-  const struct verb *at;          /* ends with a NULL name */
-  int (*otherwise)(int, char **); /* without a verb; or NULL */
-};
+#include "program/help.h"
 
 /* Runs the verb that argv[1] names, or what there is without one. `PROGRAM help
    VERB` is the verb's --help. A word that is neither a verb nor a file but

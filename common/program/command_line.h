@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A program's command line, by its table of options. Tested in tests/test_cli.sh
+   and tests/test_habits.sh. */
+#ifndef COMMAND_LINE_H
+#define COMMAND_LINE_H
+
+#include "program/help.h"
+#include "program/messages.h"
+#include "program/options.h"
+
+/* Sets up a program (program_begin) and parses its command line; --help, -h and
+   --version print and exit, and so do two that are not listed and must come
+   last: --man, the page for man, and --complete, what a shell may complete. A
+   mistake exits with EXIT_USAGE. Returns the index of the first operand. */
+int options_parse(const struct program *p, int argc, char **argv);
+
+#endif
