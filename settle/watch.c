@@ -153,9 +153,9 @@ static bool start_stiff(struct watch *w) {
   s->rate = malloc(dim * sizeof *s->rate);
   s->product = gsl_rstat_quantile_alloc(0.5);
   s->ratio = gsl_rstat_quantile_alloc(0.5);
-  s->follow = stiffness_alloc(dim);
   s->limit = stiffness_limit_at(&s->limits, M_PI);
-  return s->rate && s->product && s->ratio && s->follow;
+  return s->rate && s->product && s->ratio &&
+         stiffness_alloc(&s->follow, dim) == GSL_SUCCESS;
 }
 
 static size_t own_evaluations(const struct watch *w) {

@@ -649,7 +649,8 @@ static void follow(enum scene_model model, size_t n, unsigned long seed,
   bench_open(&b, model, n, 0.2, 0.3, seed);
   const gsl_odeiv2_system sys = {dynamics_rhs, NULL, b.dim, b.d};
   gsl_odeiv2_step *step = gsl_odeiv2_step_alloc(rkc, b.dim);
-  gsl_odeiv2_control *c = control_predictive_new(1e-3, 0, b.scale, b.dim);
+  gsl_odeiv2_control *c;
+  CHECK(control_predictive_alloc(&c, 1e-3, 0, b.scale, b.dim) == GSL_SUCCESS);
   gsl_odeiv2_evolve *e = gsl_odeiv2_evolve_alloc(b.dim);
   double t = 0, h = 1e-4;
   size_t spent = 0, k = 0;
@@ -713,7 +714,8 @@ static void test_hidden_mode(void) {
   const gsl_odeiv2_system sys = companion_system(&c);
   static const double ones[] = {1, 1};
   gsl_odeiv2_step *step = gsl_odeiv2_step_alloc(rkc, 2);
-  gsl_odeiv2_control *control = control_predictive_new(tol, 0, ones, 2);
+  gsl_odeiv2_control *control;
+  CHECK(control_predictive_alloc(&control, tol, 0, ones, 2) == GSL_SUCCESS);
   gsl_odeiv2_evolve *e = gsl_odeiv2_evolve_alloc(2);
   double t = 0, h = 0.1, y[2], exact[2];
   companion_exact(&c, 0, y);

@@ -1030,8 +1030,8 @@ static int adjust_with(gsl_odeiv2_control *control, size_t dim, size_t k,
 /* The paper's control, which remembers nothing. */
 static int adjust(double delta, size_t dim, size_t k, double rest, double e,
                   double *h) {
-  gsl_odeiv2_control *control = control_paper_new(delta);
-  if (!CHECK(control != NULL))
+  gsl_odeiv2_control *control;
+  if (!CHECK(control_paper_alloc(&control, delta) == GSL_SUCCESS))
     return -100; /* none of the answers */
   const int status = adjust_with(control, dim, k, rest, e, h);
   gsl_odeiv2_control_free(control);
@@ -1104,7 +1104,8 @@ static void test_control_not_finite(void) {
           double h = 0.1;
           CHECK(adjust(0.1, dim, k, rest[r], bad[b], &h) == GSL_ODEIV_HADJ_DEC);
           CHECK(h > 0 && h < 0.1);
-          gsl_odeiv2_control *c = control_predictive_new(0.1, 0, ones, dim);
+          gsl_odeiv2_control *c;
+          CHECK(control_predictive_alloc(&c, 0.1, 0, ones, dim) == GSL_SUCCESS);
           h = 0.1;
           CHECK(adjust_with(c, dim, k, rest[r], bad[b], &h) ==
                 GSL_ODEIV_HADJ_DEC);
@@ -1116,12 +1117,11 @@ static void test_control_not_finite(void) {
 static void test_control_new(void) {
   const double bad[] = {0, -1, GSL_NAN};
   for (size_t i = 0; i < COUNT(bad); i++) {
-    gsl_odeiv2_control *c = control_paper_new(bad[i]);
-    CHECK(c == NULL);
-    if (c)
-      gsl_odeiv2_control_free(c);
+    gsl_odeiv2_control *c = NULL;
+    CHECK(control_paper_alloc(&c, bad[i]) == GSL_EINVAL && c == NULL);
   }
-  gsl_odeiv2_control *c = control_paper_new(0.1);
+  gsl_odeiv2_control *c;
+  CHECK(control_paper_alloc(&c, 0.1) == GSL_SUCCESS);
   double level = GSL_NAN;
   CHECK(!strcmp(gsl_odeiv2_control_name(c), "paper"));
   /* the level is the E at which a step is just not accepted */
@@ -1145,8 +1145,8 @@ static double predicted(double h, double error, double h_last, double last) {
 static void test_predictive(void) {
   const double abstol = 1e-3;
   double scale[] = {2, 0.5, 1};
-  gsl_odeiv2_control *c = control_predictive_new(abstol, 0, scale, 3);
-  if (!CHECK(c != NULL))
+  gsl_odeiv2_control *c;
+  if (!CHECK(control_predictive_alloc(&c, abstol, 0, scale, 3) == GSL_SUCCESS))
     return;
   scale[0] = scale[1] = scale[2] = GSL_NAN; /* it has a copy */
   static const double scales[] = {2, 0.5, 1};
@@ -1182,7 +1182,7 @@ static void test_predictive(void) {
   gsl_odeiv2_control_free(c);
 
   /* reltol is of |y| */
-  c = control_predictive_new(0, 1e-6, scales, 3);
+  CHECK(control_predictive_alloc(&c, 0, 1e-6, scales, 3) == GSL_SUCCESS);
   h = 0.1;
   CHECK(adjust_with(c, 3, 1, 0, 0.99e-6 * BIG, &h) != GSL_ODEIV_HADJ_DEC);
   CHECK(adjust_with(c, 3, 1, 0, 1.01e-6 * BIG, &h) == GSL_ODEIV_HADJ_DEC);
@@ -1193,10 +1193,10 @@ static void test_predictive(void) {
 
   const double bad[][2] = {{0, 0}, {-1, 1}, {1, -1}, {GSL_NAN, 1}};
   for (size_t i = 0; i < COUNT(bad); i++) {
-    c = control_predictive_new(bad[i][0], bad[i][1], scales, 3);
-    CHECK(c == NULL);
-    if (c)
-      gsl_odeiv2_control_free(c);
+    c = NULL;
+    CHECK(control_predictive_alloc(&c, bad[i][0], bad[i][1], scales, 3) ==
+              GSL_EINVAL &&
+          c == NULL);
   }
 }
 
@@ -1256,7 +1256,8 @@ static void test_paper_loop(void) {
     size_t calls = 0, accepted = 0;
     const gsl_odeiv2_system sys = {drop_f, NULL, 2, &calls};
     gsl_odeiv2_step *step = gsl_odeiv2_step_alloc(merson, 2);
-    gsl_odeiv2_control *control = control_paper_new(deltas[i]);
+    gsl_odeiv2_control *control;
+    CHECK(control_paper_alloc(&control, deltas[i]) == GSL_SUCCESS);
     gsl_odeiv2_evolve *evolve = gsl_odeiv2_evolve_alloc(2);
     double t = 0, h = 0.01, y[2] = {1, 0};
     bool alike = true;
@@ -1291,7 +1292,8 @@ static double control_error(const struct stepper *s, double delta) {
   const struct problem *p = &problems[1]; /* oscillator */
   const gsl_odeiv2_system sys = system_of(p);
   gsl_odeiv2_step *step = gsl_odeiv2_step_alloc(*s->type, p->dim);
-  gsl_odeiv2_control *control = control_paper_new(delta);
+  gsl_odeiv2_control *control;
+  CHECK(control_paper_alloc(&control, delta) == GSL_SUCCESS);
   gsl_odeiv2_evolve *evolve = gsl_odeiv2_evolve_alloc(p->dim);
   double t = 0, h = 0.1, y[DIM], exact[DIM];
   p->exact(0, y);

@@ -64,13 +64,16 @@ static const gsl_odeiv2_control_type paper = {.name = "paper",
                                               .set_driver = step_no_driver,
                                               .free = free};
 
-gsl_odeiv2_control *control_paper_new(double delta) {
+int control_paper_alloc(gsl_odeiv2_control **out, double delta) {
   gsl_odeiv2_control *c = gsl_odeiv2_control_alloc(&paper);
-  if (c && gsl_odeiv2_control_init(c, delta, 0, 0, 0) != GSL_SUCCESS) {
+  if (!c)
+    return GSL_ENOMEM;
+  const int status = gsl_odeiv2_control_init(c, delta, 0, 0, 0);
+  if (status == GSL_SUCCESS)
+    *out = c;
+  else
     gsl_odeiv2_control_free(c);
-    return NULL;
-  }
-  return c;
+  return status;
 }
 
 /* Predictive control */
@@ -153,19 +156,21 @@ static const gsl_odeiv2_control_type predictive = {.name = "predictive",
                                                    .set_driver = step_no_driver,
                                                    .free = predictive_free};
 
-gsl_odeiv2_control *control_predictive_new(double abstol, double reltol,
-                                           const double *scale, size_t dim) {
+int control_predictive_alloc(gsl_odeiv2_control **out, double abstol,
+                             double reltol, const double *scale, size_t dim) {
   gsl_odeiv2_control *c = gsl_odeiv2_control_alloc(&predictive);
   if (!c)
-    return NULL;
+    return GSL_ENOMEM;
   struct predictive *p = c->state;
   p->dim = dim;
   p->scale = malloc(dim * sizeof *scale);
-  if (!p->scale ||
-      gsl_odeiv2_control_init(c, abstol, reltol, 0, 0) != GSL_SUCCESS) {
+  const int status =
+      p->scale ? gsl_odeiv2_control_init(c, abstol, reltol, 0, 0) : GSL_ENOMEM;
+  if (status != GSL_SUCCESS) {
     gsl_odeiv2_control_free(c);
-    return NULL;
+    return status;
   }
   memcpy(p->scale, scale, dim * sizeof *scale);
-  return c;
+  *out = c;
+  return GSL_SUCCESS;
 }

@@ -17,22 +17,30 @@ static double absolute_tolerance(const struct integrate_options *o) {
   return o->abstol > 0 ? o->abstol : o->tol;
 }
 
-static gsl_odeiv2_control *make_paper(const struct integrate_options *o,
-                                      const double *scale, size_t dim) {
+static int paper_alloc(gsl_odeiv2_control **out,
+                       const struct integrate_options *o, const double *scale,
+                       size_t dim) {
   (void)scale;
   (void)dim;
-  return control_paper_new(o->tol);
+  return control_paper_alloc(out, o->tol);
 }
 
-static gsl_odeiv2_control *make_standard(const struct integrate_options *o,
-                                         const double *scale, size_t dim) {
-  return gsl_odeiv2_control_scaled_new(absolute_tolerance(o), o->reltol, 1, 0,
-                                       scale, dim);
+static int standard_alloc(gsl_odeiv2_control **out,
+                          const struct integrate_options *o,
+                          const double *scale, size_t dim) {
+  gsl_odeiv2_control *c = gsl_odeiv2_control_scaled_new(
+      absolute_tolerance(o), o->reltol, 1, 0, scale, dim);
+  if (!c)
+    return GSL_ENOMEM;
+  *out = c;
+  return GSL_SUCCESS;
 }
 
-static gsl_odeiv2_control *make_predictive(const struct integrate_options *o,
-                                           const double *scale, size_t dim) {
-  return control_predictive_new(absolute_tolerance(o), o->reltol, scale, dim);
+static int predictive_alloc(gsl_odeiv2_control **out,
+                            const struct integrate_options *o,
+                            const double *scale, size_t dim) {
+  return control_predictive_alloc(out, absolute_tolerance(o), o->reltol, scale,
+                                  dim);
 }
 
 const struct integrate_control integrate_controls[] = {
@@ -40,15 +48,15 @@ const struct integrate_control integrate_controls[] = {
                .help = "the paper's: error per unit step",
                .tol = 0.1,
                .per_time = true,
-               .make = make_paper},
+               .alloc = paper_alloc},
     [STANDARD] = {.name = "standard",
                   .help = "GSL's: error of each unknown by its scale",
                   .tol = 5e-4,
-                  .make = make_standard},
+                  .alloc = standard_alloc},
     [PREDICTIVE] = {.name = "predictive",
                     .help = "the same, the next step from the last two errors",
                     .tol = 5e-4,
-                    .make = make_predictive},
+                    .alloc = predictive_alloc},
     {0}};
 
 static void prepare_rkc(gsl_odeiv2_step *s, const struct integrate_problem *p) {
@@ -208,11 +216,13 @@ int integrate_alloc(struct integrator **out, const struct integrate_options *o,
   memcpy(it->y, y, dim * sizeof *y);
   it->step = gsl_odeiv2_step_alloc(*m->type, dim);
   it->evolve = gsl_odeiv2_evolve_alloc(dim);
-  if (!(o->step > 0)) /* msbdf asks for a tolerance whatever its step */
-    it->control = integrate_control(o->control)->make(o, problem->scale, dim);
-  if (!it->step || !it->evolve || (!it->control && !(o->step > 0))) {
+  int status = it->step && it->evolve ? GSL_SUCCESS : GSL_ENOMEM;
+  if (status == GSL_SUCCESS && !(o->step > 0))
+    status = integrate_control(o->control)
+                 ->alloc(&it->control, o, problem->scale, dim);
+  if (status != GSL_SUCCESS) {
     integrate_free(it);
-    return GSL_ENOMEM;
+    return status;
   }
   if (m->prepare)
     m->prepare(it->step, problem);

@@ -29,8 +29,8 @@ struct integrate_control {
   double tol;    /* by default */
   bool per_time; /* tol bounds the error per unit step (m/s^2), and abstol and
                     reltol mean nothing; else the error (m/s) */
-  gsl_odeiv2_control *(*make)(const struct integrate_options *o,
-                              const double *scale, size_t dim);
+  int (*alloc)(gsl_odeiv2_control **out, const struct integrate_options *o,
+               const double *scale, size_t dim);
 };
 
 struct integrate_problem;

@@ -32,11 +32,12 @@ static double growth(gsl_odeiv2_step *step, double radius, double angle) {
   return hypot(y[0], y[1]);
 }
 
-double stiffness_limit(const gsl_odeiv2_step_type *type, double angle) {
+int stiffness_limit(const gsl_odeiv2_step_type *type, double angle,
+                    double *limit) {
   const double most = 1.01, stride = 0.05;
   gsl_odeiv2_step *step = gsl_odeiv2_step_alloc(type, 2);
   if (!step)
-    return 0;
+    return GSL_ENOMEM;
   double low = 0, high = stride;
   while (high < 1e3 && growth(step, high, angle) <= most) {
     low = high;
@@ -50,7 +51,8 @@ double stiffness_limit(const gsl_odeiv2_step_type *type, double angle) {
       high = middle;
   }
   gsl_odeiv2_step_free(step);
-  return low;
+  *limit = low;
+  return GSL_SUCCESS;
 }
 
 int stiffness_limits(const gsl_odeiv2_step_type *type,
@@ -58,9 +60,10 @@ int stiffness_limits(const gsl_odeiv2_step_type *type,
   struct stiffness_limits found;
   for (size_t k = 0; k < STIFFNESS_RAYS; k++) {
     const double share = (double)k / (STIFFNESS_RAYS - 1);
-    found.at[k] = stiffness_limit(type, M_PI_2 * (1 + share));
-    if (!(found.at[k] > 0))
-      return GSL_ENOMEM;
+    const int status =
+        stiffness_limit(type, M_PI_2 * (1 + share), &found.at[k]);
+    if (status != GSL_SUCCESS)
+      return status;
   }
   *l = found;
   return GSL_SUCCESS;
@@ -87,17 +90,18 @@ static void scatter(struct stiffness *s) {
   cblas_dscal((int)s->dim, 1 / cblas_dnrm2((int)s->dim, s->now, 1), s->now, 1);
 }
 
-struct stiffness *stiffness_alloc(size_t dim) {
+int stiffness_alloc(struct stiffness **out, size_t dim) {
   struct stiffness *s = malloc(sizeof *s + 4 * dim * sizeof(double));
   if (!s)
-    return NULL;
+    return GSL_ENOMEM;
   s->dim = dim;
   s->before = s->work;
   s->now = s->before + dim;
   s->trial = s->now + dim;
   s->next = s->trial + dim;
   scatter(s);
-  return s;
+  *out = s;
+  return GSL_SUCCESS;
 }
 
 void stiffness_free(struct stiffness *s) {

@@ -18,8 +18,9 @@ int stiffness_linear(double t, const double y[], double dydt[], void *params);
    its stability region, but for the slow growth along the imaginary axis that
    methods of order 5 have from 0 on and that step control sees. Measured by
    taking steps, so that no table of methods is needed; the method must be a
-   one-step method whose stages are fixed. 0 without memory. */
-double stiffness_limit(const gsl_odeiv2_step_type *type, double angle);
+   one-step method whose stages are fixed. GSL_SUCCESS, GSL_ENOMEM. */
+int stiffness_limit(const gsl_odeiv2_step_type *type, double angle,
+                    double *limit);
 
 /* The same for every angle, from a table. */
 enum { STIFFNESS_RAYS = 19 };
@@ -43,9 +44,9 @@ static inline bool stiffness_sets_pace(size_t at_limit, size_t steps) {
 
 struct stiffness;
 
-/* The dominant eigenvalue of df/dy, followed along a trajectory. NULL without
-   memory. One at a time per thread. */
-struct stiffness *stiffness_alloc(size_t dim);
+/* The dominant eigenvalue of df/dy, followed along a trajectory. GSL_SUCCESS,
+   GSL_ENOMEM. One at a time per thread. */
+int stiffness_alloc(struct stiffness **out, size_t dim);
 void stiffness_free(struct stiffness *s);
 
 struct stiffness_mode {
