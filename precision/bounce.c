@@ -18,10 +18,6 @@ struct reference {
   double time, energy;
 };
 
-static double energy(const struct drop *d, const double y[]) {
-  return 0.5 * y[1] * y[1] + d->gravity * y[0] + contact_energy(&d->law, y[0]);
-}
-
 /* From where F is below 1e-18 F0 and back there. */
 static int converge(const struct precision_case *c, const char *method,
                     struct reference *r) {
@@ -31,7 +27,7 @@ static int converge(const struct precision_case *c, const char *method,
   const struct integrate_options o = {
       .method = method, .control = "standard", .tol = 1e-14, .hinit = 1e-6};
   struct integrator *it;
-  int status = drop_start(&d, &it, &o, far, -c->gravity * fall);
+  int status = drop_alloc(&it, &d, &o, far, -c->gravity * fall);
   if (status != GSL_SUCCESS)
     return status;
   const double *y = integrate_state(it);
@@ -39,7 +35,7 @@ static int converge(const struct precision_case *c, const char *method,
     status = integrate_step(it);
   while (status == GSL_SUCCESS && (y[1] <= 0 || y[0] < far));
   *r = (struct reference){fall + integrate_time(it) + y[1] / c->gravity,
-                          energy(&d, y)};
+                          drop_energy(&d, y)};
   integrate_free(it);
   return status;
 }
@@ -93,7 +89,7 @@ static int run(const struct precision_case *c, const void *reference,
                    .gravity = c->gravity,
                    .travel = c->travel};
   struct integrator *it;
-  const int status = drop_start(&d, &it, c->integrate, height, 0);
+  const int status = drop_alloc(&it, &d, c->integrate, height, 0);
   if (status != GSL_SUCCESS)
     return status;
   struct ascent a = {c->gravity, false};
@@ -104,7 +100,7 @@ static int run(const struct precision_case *c, const void *reference,
   /* the rounding of the landing, or a step that passed the apex */
   const double time = integrate_time(it) + y[1] / c->gravity;
   const double error[] = {fabs(time - exact->time),
-                          fabs(energy(&d, y) / exact->energy - 1)};
+                          fabs(drop_energy(&d, y) / exact->energy - 1)};
   measure_add(r, it, d.evaluations, error, 2);
   if (r->status == measure_ok && !(error[1] <= 1))
     r->status = "lost";

@@ -23,8 +23,16 @@ static double pace(const struct precision_case *c) {
   return c->law.kappa * c->speed / 2;
 }
 
-static double spring(const struct drop *d, double gap, double rate,
+/* A drop onto a spring. */
+struct loaded {
+  struct drop drop;          /* first, as a law finds the rest by it */
+  double loading, unloading; /* N/m */
+  double deepest;            /* overlap at an accepted step so far (m) */
+};
+
+static double spring(const struct drop *drop, double gap, double rate,
                      double slope[2]) {
+  const struct loaded *d = (const struct loaded *)drop;
   (void)rate;
   if (slope) {
     slope[0] = gap < 0 ? -d->loading : 0;
@@ -35,8 +43,9 @@ static double spring(const struct drop *d, double gap, double rate,
 
 /* The deepest overlap is a memory that is updated between steps, as programs
    for such laws do. */
-static double walton_braun(const struct drop *d, double gap, double rate,
+static double walton_braun(const struct drop *drop, double gap, double rate,
                            double slope[2]) {
+  const struct loaded *d = (const struct loaded *)drop;
   (void)rate;
   const double rest = d->deepest * (1 - d->loading / d->unloading);
   const bool loading = -gap >= d->deepest;
@@ -57,13 +66,12 @@ struct course {
 
 typedef double force(const struct drop *, double, double, double[2]);
 
-static struct drop make_drop(const struct precision_case *c, force *law) {
+static struct loaded make_drop(const struct precision_case *c, force *law) {
   const double k = gsl_pow_2(pace(c));
-  return (struct drop){.force = law,
-                       .law = c->law,
-                       .travel = c->travel,
-                       .loading = k,
-                       .unloading = k / gsl_pow_2(c->law.restitution)};
+  return (struct loaded){
+      .drop = {.force = law, .law = c->law, .travel = c->travel},
+      .loading = k,
+      .unloading = k / gsl_pow_2(c->law.restitution)};
 }
 
 /* Gap at the start, half a run and the time more before the middle: of the
@@ -85,12 +93,12 @@ static int run_one(const struct precision_case *c, force *law,
                    const struct integrate_options *o, double more,
                    const struct course *exact, struct course *end,
                    struct precision_result *r) {
-  struct drop d = make_drop(c, law);
+  struct loaded d = make_drop(c, law);
   double velocity;
   const double gap = start_gap(c, law, more, &velocity);
   const double time = 2 * half / pace(c) + more;
   struct integrator *it;
-  const int status = drop_start(&d, &it, o, gap, velocity);
+  const int status = drop_alloc(&it, &d.drop, o, gap, velocity);
   if (status != GSL_SUCCESS)
     return status;
   const double *y = integrate_state(it);
@@ -107,7 +115,7 @@ static int run_one(const struct precision_case *c, force *law,
   *end = (struct course){.gap = y[0], .velocity = y[1]};
   const double error[] = {fabs(y[0] - exact->gap),
                           fabs(y[1] - exact->velocity)};
-  measure_add(r, it, d.evaluations, error, 2);
+  measure_add(r, it, d.drop.evaluations, error, 2);
   integrate_free(it);
   return GSL_SUCCESS;
 }

@@ -3,7 +3,7 @@
 #ifndef MEASURE_H
 #define MEASURE_H
 
-#include "drop.h"
+#include "dynamics/drop.h"
 #include "dynamics/motion.h"
 #include "scenes.h"
 

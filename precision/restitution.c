@@ -34,7 +34,7 @@ static int run(const struct precision_case *c, const void *reference,
   const double far =
       log(c->law.f0 / (c->law.kappa * energy * 1e-16)) / c->law.kappa;
   struct integrator *it;
-  const int status = drop_start(&d, &it, c->integrate, far, -c->speed);
+  const int status = drop_alloc(&it, &d, c->integrate, far, -c->speed);
   if (status != GSL_SUCCESS)
     return status;
   const double *y = integrate_state(it);

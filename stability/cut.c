@@ -9,77 +9,74 @@
    closed form 1 of the force without a cut, which tells of the model too. */
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
+#include "dynamics/drop.h"
 #include "model/closed_forms.h"
 #include "model/scene.h"
 #include "program/integration.h"
 #include "program/shared_options.h"
-#include "model/travel.h"
 #include "verbs.h"
 
 static const char *const tapers[] = {"none", "shift", "c1", "c2", NULL};
 
 /* The last part of lmax, over which tapers act. */
-static const double tapered = 0.2;
+static const double tapered_share = 0.2;
 
-struct wall_contact {
-  struct contact_law law;
-  size_t taper;  /* index into tapers */
-  double travel; /* m */
-  size_t evaluations;
+struct tapered_drop {
+  struct drop drop; /* first, as its force finds the rest by it */
+  size_t taper;     /* index into tapers */
 };
 
-static double force(const struct wall_contact *w, double gap) {
-  const struct contact_law *law = &w->law;
-  if (gap > law->lmax)
-    return 0;
-  const double f = contact_repulsion(law, gap);
-  const double x = (law->lmax - gap) / (tapered * law->lmax); /* 0 at lmax */
-  switch (w->taper) {
-  case 1:
-    return f - contact_repulsion(law, law->lmax);
+/* f times the taper's factor at x, 0 at lmax and 1 where the taper begins, and
+   by_x, f times the factor's derivative. */
+static double tapered(size_t taper, double f, double x, double *by_x) {
+  *by_x = 0;
+  if (!(x < 1))
+    return f;
+  switch (taper) {
   case 2:
-    return x < 1 ? f * x * x * (3 - 2 * x) : f;
+    *by_x = f * 6 * x * (1 - x);
+    return f * x * x * (3 - 2 * x);
   case 3:
-    return x < 1 ? f * x * x * x * (10 + x * (6 * x - 15)) : f;
+    *by_x = f * 30 * x * x * (1 - x) * (1 - x);
+    return f * x * x * x * (10 + x * (6 * x - 15));
   default:
     return f;
   }
 }
 
-static int rhs(double t, const double y[], double dydt[], void *params) {
-  (void)t;
-  struct wall_contact *w = params;
-  w->evaluations++;
-  dydt[0] = y[1];
-  dydt[1] = force(w, y[0]);
-  return isfinite(dydt[0] + dydt[1]) ? GSL_SUCCESS : GSL_EBADFUNC;
+static double force(const struct drop *drop, double gap, double rate,
+                    double slope[2]) {
+  const struct contact_law *law = &drop->law;
+  const size_t taper = ((const struct tapered_drop *)drop)->taper;
+  const double width = tapered_share * law->lmax;
+  double f = 0, by_gap = 0, by_x;
+  (void)rate;
+  if (gap <= law->lmax) {
+    f = tapered(taper, contact_repulsion(law, gap), (law->lmax - gap) / width,
+                &by_x);
+    by_gap = -law->kappa * f - by_x / width;
+    if (taper == 1)
+      f -= contact_repulsion(law, law->lmax);
+  }
+  if (slope) {
+    slope[0] = by_gap;
+    slope[1] = 0;
+  }
+  return f;
 }
 
-static double step_limit(const double y[], const double dydt[], void *params) {
-  const struct wall_contact *w = params;
-  return travel_time(fabs(y[1]), fabs(dydt[1]), w->travel);
-}
-
-static void print_run(struct wall_contact *w, double v0,
+static void print_run(struct tapered_drop *w, double v0,
                       const struct integrate_options *o) {
-  const double tau = 45 / (w->law.kappa * v0);
-  const double scale[2] = {1 / w->law.kappa, 1};
-  const double f0 = w->law.f0, kappa = w->law.kappa;
+  const struct contact_law *law = &w->drop.law;
+  const double tau = 45 / (law->kappa * v0);
   double start[2], end[2]; /* gap (m) and velocity (m/s), without a cut */
-  closed_collision(f0, kappa, v0, -tau, &start[0], &start[1]);
-  closed_collision(f0, kappa, v0, tau, &end[0], &end[1]);
-  const struct integrate_problem problem = {
-      .system = {.function = rhs, .dimension = 2, .params = w},
-      .scale = scale,
-      .row = 2,
-      .positions = 1,
-      .step_limit = step_limit};
+  closed_collision(law->f0, law->kappa, v0, -tau, &start[0], &start[1]);
+  closed_collision(law->f0, law->kappa, v0, tau, &end[0], &end[1]);
   struct integrator *it;
-  w->evaluations = 0;
-  int status = integrate_alloc(&it, o, &problem, 0, start);
+  w->drop.evaluations = 0;
+  int status = drop_alloc(&it, &w->drop, o, start[0], start[1]);
   if (status != GSL_SUCCESS)
     die_status(status, "method %s", o->method);
   status = integrate_stop(it, 2 * tau);
@@ -87,8 +84,8 @@ static void print_run(struct wall_contact *w, double v0,
     status = integrate_step(it);
   const double *y = integrate_state(it);
   printf("%s\t%s\t%g\t%.3g\t%.6g\t%.6g\t%zu\t%zu\t%zu\t%s\n", o->method,
-         tapers[w->taper], w->law.lmax, o->tol, fabs(y[1] - end[1]) / v0,
-         fabs(y[0] - end[0]) * w->law.kappa, w->evaluations,
+         tapers[w->taper], law->lmax, o->tol, fabs(y[1] - end[1]) / v0,
+         fabs(y[0] - end[0]) * law->kappa, w->drop.evaluations,
          integrate_counts(it).accepted, integrate_counts(it).rejected,
          status == GSL_SUCCESS ? "ok" : "gave_up");
   integrate_free(it);
@@ -97,8 +94,10 @@ static void print_run(struct wall_contact *w, double v0,
 int verb_cut(int argc, char **argv) {
   struct option_list gaps = {4, {0.05, 0.1, 0.15, 0.2}};
   const char *taper = tapers[0];
-  struct wall_contact w = {.law = scene_default().law};
-  w.law.restitution = 1;
+  struct tapered_drop w = {
+      .drop = {.force = force, .law = scene_default().law}};
+  struct contact_law *law = &w.drop.law;
+  law->restitution = 1;
   struct integrate_options integrate = {
       .method = "rk8pd", .control = "standard", .hinit = 1e-3};
   double travel = 1, speed = 1, tightest = 1e-14;
@@ -112,7 +111,7 @@ int verb_cut(int argc, char **argv) {
       POSITIVE("speed", &speed, "m/s", "of approach"),
       POSITIVE("tightest", &tightest, "m/s",
                "smallest tolerance, from 1e-3 on"),
-      LAW_OPTIONS(w.law),
+      LAW_OPTIONS(*law),
       INTEGRATION_OPTIONS(integrate, travel),
       {0}};
   /* clang-format on */
@@ -127,16 +126,18 @@ int verb_cut(int argc, char **argv) {
   integrate_defaults(&integrate);
   if (!(speed > 0 && travel > 0))
     die(EXIT_USAGE, "--travel: expected a limit here");
-  while (strcmp(tapers[w.taper], taper))
+  while (tapers[w.taper] != taper)
     w.taper++;
-  w.travel = travel / w.law.kappa;
+  w.drop.travel = travel / law->kappa;
   for (size_t k = 0; k < gaps.count; k++) {
     printf("%smethod\ttaper\tlmax\ttol\terror_velocity\terror_gap\t"
            "evaluations\taccepted\trejected\tstatus\n",
            k ? "\n\n" : "");
-    w.law.lmax = gaps.at[k];
-    for (double power = -3; pow(10, power) > 0.99 * tightest; power -= 0.5) {
-      integrate.tol = pow(10, power);
+    law->lmax = gaps.at[k];
+    for (size_t rung = 0;; rung++) { /* two per decade */
+      integrate.tol = pow(10, -3 - 0.5 * (double)rung);
+      if (!(integrate.tol > 0.99 * tightest))
+        break;
       print_run(&w, speed, &integrate);
     }
   }

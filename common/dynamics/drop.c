@@ -1,7 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "drop.h"
+#include "dynamics/drop.h"
 
+#include <math.h>
+#include <gsl/gsl_complex_math.h>
 #include <gsl/gsl_errno.h>
+#include <gsl/gsl_math.h>
+#include <gsl/gsl_poly.h>
 #include "model/travel.h"
 
 double drop_contact(const struct drop *d, double gap, double rate,
@@ -40,11 +44,11 @@ static double step_limit(const double y[], const double dydt[], void *params) {
   return travel_time(fabs(y[1]), fabs(dydt[1]), travel);
 }
 
-int drop_start(struct drop *d, struct integrator **it,
+int drop_alloc(struct integrator **out, struct drop *d,
                const struct integrate_options *o, double gap, double rate) {
-  /* as dynamics_scale has it */
+  /* as dynamics_scale has it: gaps in 1/kappa, speeds in m/s */
   const double scale[2] = {1 / d->law.kappa, 1};
-  return integrate_alloc(it, o,
+  return integrate_alloc(out, o,
                          &(struct integrate_problem){
                              .system = {.function = rhs,
                                         .jacobian = jacobian,
@@ -55,4 +59,19 @@ int drop_start(struct drop *d, struct integrator **it,
                              .positions = 1,
                              .step_limit = d->travel > 0 ? step_limit : NULL},
                          0, (const double[]){gap, rate});
+}
+
+double drop_energy(const struct drop *d, const double y[]) {
+  return 0.5 * y[1] * y[1] + d->gravity * y[0] + contact_energy(&d->law, y[0]);
+}
+
+struct stiffness_mode drop_mode(const struct drop *d, const double y[]) {
+  double slope[2];
+  gsl_complex root[2];
+  d->force(d, y[0], y[1], slope);
+  gsl_poly_complex_solve_quadratic(1, -slope[1], -slope[0], &root[0], &root[1]);
+  const size_t k = gsl_complex_abs(root[1]) > gsl_complex_abs(root[0]);
+  const double angle = fabs(gsl_complex_arg(root[k]));
+  return (struct stiffness_mode){gsl_complex_abs(root[k]),
+                                 GSL_MAX(angle, M_PI_2)};
 }
