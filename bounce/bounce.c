@@ -1,78 +1,42 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* bounce: one sphere dropped on a plane, two unknowns: height of its lowest
    point above the plane, and velocity. */
+#define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <gsl/gsl_complex_math.h>
+#include <unistd.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
-#include <gsl/gsl_poly.h>
 #include <gsl/gsl_roots.h>
 #include "program/command_line.h"
+#include "dynamics/drop.h"
 #include "model/scene.h"
+#include "program/files.h"
 #include "program/integration.h"
+#include "program/run_watch.h"
 #include "program/shared_options.h"
-#include "model/travel.h"
 #include "program/version.h"
 
-struct drop {
-  struct contact_law law;
-  double gravity;
-  double travel; /* longest way in a step (m), 0: any */
-};
-
-/* What goes wrong beside the motion; README.md lists the warnings. */
-struct watch {
+struct bounce {
+  struct drop drop;
   struct integrator *it;
-  const struct drop *drop;
-  const struct integrate_options *options;
-  bool adapts; /* the method to stiffness */
-  struct stiffness_limits limits;
-  double weight;        /* of the contact's energy in what cannot grow */
-  double first, lowest; /* of that */
-  double deepest;       /* height that its energy lets it reach */
-  double bottom;        /* lowest height so far */
-  size_t steps, limited_steps;
-  bool told;
+  const struct integrate_options *integrate;
+  double height, time; /* at the start (m), of the end (s) */
+  struct run_watch *watch;
+  double weight;  /* of the contact's energy in what cannot grow */
+  double deepest; /* height that its energy lets it reach (m) */
 };
 
-/* (2.13), (2.14) for one sphere and the floor */
-static int rhs(double t, const double y[], double dydt[], void *params) {
-  (void)t;
-  const struct drop *d = params;
-  dydt[0] = y[1];
-  dydt[1] = contact_normal(&d->law, y[0], y[1]) - d->gravity;
-  return isfinite(dydt[0]) && isfinite(dydt[1]) ? GSL_SUCCESS : GSL_EBADFUNC;
-}
-
-static int jacobian(double t, const double y[], double *dfdy, double dfdt[],
-                    void *params) {
-  (void)t;
-  const struct contact_law *c = &((const struct drop *)params)->law;
-  dfdy[0] = 0;
-  dfdy[1] = 1;
-  dfdy[2] = -c->kappa * contact_normal(c, y[0], y[1]);
-  dfdy[3] = -contact_repulsion(c, y[0]) * contact_rebound_slope(c, -y[1]);
-  dfdt[0] = dfdt[1] = 0;
-  return GSL_SUCCESS;
-}
-
-static double step_limit(const double y[], const double dydt[], void *params) {
-  const struct drop *d = params;
-  return travel_time(fabs(y[1]), fabs(dydt[1]), d->travel);
-}
-
-static double energy(const struct drop *d, const double y[]) {
-  return 0.5 * y[1] * y[1] + d->gravity * y[0] + contact_energy(&d->law, y[0]);
-}
-
-/* Kinetic energy, gravity's and rho(0) F/kappa: it never grows, and with e = 1
-   it is constant. */
-static double remaining(const struct watch *w, const double y[]) {
-  const struct drop *d = w->drop;
-  return 0.5 * y[1] * y[1] + d->gravity * y[0] +
-         w->weight * contact_energy(&d->law, y[0]);
+/* What the motion has left, as settle's watch has it: the sphere's energy
+   without gravity's, with rho(0) F/kappa for the contact's. */
+static int watch_energy(struct bounce *b) {
+  const double *y = integrate_state(b->it);
+  const double gravity = b->drop.gravity * y[0];
+  const double inner =
+      0.5 * y[1] * y[1] + b->weight * contact_energy(&b->drop.law, y[0]);
+  return run_watch_energy(b->watch, gravity, inner,
+                          4 * GSL_DBL_EPSILON * b->drop.gravity * b->height);
 }
 
 /* The lower root z of g z + touch exp(-kappa z) = energy, by Newton's method
@@ -94,96 +58,87 @@ static double deepest(const struct drop *d, double touch, double energy) {
   return z;
 }
 
-static struct watch watch_start(struct integrator *it, const struct drop *d,
-                                const struct integrate_options *o) {
-  const double e = d->law.restitution;
-  struct watch w = {
-      .it = it, .drop = d, .options = o, .weight = 0.5 * (1 + e * e)};
-  const int status = integrate_limits(o->method, &w.limits);
+static void start(struct bounce *b, struct run_clock begun, bool quiet) {
+  const struct contact_law *law = &b->drop.law;
+  const double e = law->restitution;
+  int status = drop_alloc(&b->it, &b->drop, b->integrate, b->height, 0);
+  if (status != GSL_SUCCESS)
+    die_status(status, "--method %s", b->integrate->method);
+  status = run_watch_alloc(
+      &b->watch,
+      &(struct run_watch_options){
+          .begun = begun,
+          .program = "bounce",
+          /* rows on the same terminal would be in its way */
+          .progress = !quiet && isatty(STDERR_FILENO) && !isatty(STDOUT_FILENO),
+          .integrate = b->integrate,
+          .integrator = b->it,
+          .stiff = "the contact",
+          .whose = "the sphere's",
+          .result = "the bounce",
+          .nobody = e == 1 ? "e = 1" : NULL});
+  if (status != GSL_SUCCESS)
+    die_status(status, "start");
+  b->weight = 0.5 * (1 + e * e);
+  const double touch = b->weight * contact_energy(law, 0);
+  b->deepest = deepest(&b->drop, touch,
+                       b->drop.gravity * b->height +
+                           b->weight * contact_energy(law, b->height));
+  watch_energy(b);
+}
+
+/* What is wrong ends the run. */
+static int fail(struct bounce *b, const char *what, const char *page) {
+  fflush(stdout);
+  run_watch_say(b->watch, "t=%.6g: %s (docs/stability.md, \"%s\")",
+                integrate_time(b->it), what, page);
+  return GSL_EFAILED;
+}
+
+/* One accepted step, looked at. GSL_SUCCESS or, after a line that says why,
+   GSL_EFAILED. */
+static int step(struct bounce *b) {
+  const int status = integrate_step(b->it);
   if (status == GSL_ENOMEM)
     die(EXIT_IO, "out of memory");
-  w.adapts = status != GSL_SUCCESS;
-  w.bottom = integrate_state(it)[0];
-  w.first = w.lowest = remaining(&w, integrate_state(it));
-  w.deepest = deepest(d, w.weight * contact_energy(&d->law, 0), w.first);
-  return w;
-}
-
-/* The share of the steps that stability set. The mode is the
-   Jacobian's own: lambda^2 = f_z + f_v lambda. */
-static void watch_stiffness(struct watch *w, const double y[]) {
-  double dfdy[4], dfdt[2];
-  gsl_complex root[2];
-  const double h = integrate_last_step(w->it);
-  jacobian(0, y, dfdy, dfdt, (void *)w->drop);
-  gsl_poly_complex_solve_quadratic(1, -dfdy[3], -dfdy[2], &root[0], &root[1]);
-  const size_t k = gsl_complex_abs(root[1]) > gsl_complex_abs(root[0]);
-  const double angle = fabs(gsl_complex_arg(root[k]));
-  const double limit = stiffness_limit_at(&w->limits, GSL_MAX(angle, M_PI_2));
-  if (stiffness_at_limit(h * gsl_complex_abs(root[k]), limit))
-    w->limited_steps++;
-}
-
-/* After every accepted step. */
-static void watch_step(struct watch *w) {
-  const double *y = integrate_state(w->it), t = integrate_time(w->it);
-  const double now = remaining(w, y), kappa = w->drop->law.kappa;
-  w->steps++;
-  w->bottom = GSL_MIN(w->bottom, y[0]);
-  if (!w->adapts)
-    watch_stiffness(w, y);
+  if (status != GSL_SUCCESS)
+    return fail(b, integration_error(b->integrate, status),
+                "Missed collisions");
+  const double *y = integrate_state(b->it);
+  if (run_watch_wants_mode(b->watch))
+    run_watch_mode(b->watch, drop_mode(&b->drop, y));
+  run_watch_step(b->watch);
   /* so much deeper takes e times the energy there is */
-  if (y[0] < w->deepest - 1 / kappa) {
-    fflush(stdout);
-    die(EXIT_INTEGRATION,
-        "t=%.6g: the sphere is %.3g m below the floor, expected at most %.3g m "
-        "with its energy (docs/stability.md, \"Missed collisions\")",
-        t, -y[0], -w->deepest);
+  if (y[0] < b->deepest - 1 / b->drop.law.kappa) {
+    char what[120];
+    snprintf(what, sizeof what,
+             "the sphere is %.3g m below the floor, expected at most %.3g m "
+             "with its energy",
+             -y[0], -b->deepest);
+    return fail(b, what, "Missed collisions");
   }
-  w->lowest = GSL_MIN(w->lowest, now);
-  const double gain = now - w->lowest, loss = w->first - now;
-  const bool lost = w->drop->law.restitution == 1 && loss > 0.01 * w->first;
-  const double scale = now - w->drop->gravity * w->bottom;
-  const double rounding = 4 * GSL_DBL_EPSILON * w->first;
-  if (!w->told && (gain > 0.01 * scale + rounding || lost)) {
-    w->told = true;
-    warn("t=%.6g: %.3g J %s: a smaller --tol or --step is needed "
-         "(docs/stability.md, \"Energy\")",
-         t, lost ? loss : gain,
-         lost ? "are lost where none can be (e = 1)" : "came from nowhere");
-  }
+  if (watch_energy(b) != GSL_SUCCESS)
+    return fail(b, "the energy is not finite", "Energy");
+  run_watch_tell_energy(b->watch);
+  run_watch_progress(b->watch, b->time, b->drop.evaluations);
+  return GSL_SUCCESS;
 }
 
-static void watch_end(const struct watch *w) {
-  if (stiffness_sets_pace(w->limited_steps, w->steps))
-    warn("stability, not the tolerance, set %.0f %% of the steps: --method rkc "
-         "takes fewer evaluations (docs/stability.md, \"Stability limits\")",
-         100 * (double)w->limited_steps / (double)w->steps);
-}
-
-static void step_or_die(struct watch *w) {
-  const int status = integrate_step(w->it);
-  if (status != GSL_SUCCESS) {
-    fflush(stdout);
-    die(EXIT_INTEGRATION, "t=%.6g: %s", integrate_time(w->it),
-        integration_error(w->options, status));
-  }
-  watch_step(w);
-}
-
-static void print_samples(struct watch *w, double time, size_t samples) {
-  struct integrator *it = w->it;
+static int print_samples(struct bounce *b, size_t samples) {
   puts("t\tz\tv\tenergy");
   for (size_t k = 0; k < samples; k++) {
     const double t =
-        samples > 1 ? time * (double)k / (double)(samples - 1) : time;
+        samples > 1 ? b->time * (double)k / (double)(samples - 1) : b->time;
     double y[2];
-    while (integrate_time(it) < t)
-      step_or_die(w);
-    if (integrate_at(it, t, y) != GSL_SUCCESS)
+    while (integrate_time(b->it) < t)
+      if (step(b) != GSL_SUCCESS)
+        return EXIT_INTEGRATION;
+    if (integrate_at(b->it, t, y) != GSL_SUCCESS)
       die(EXIT_IO, "internal error: no state at t=%g", t);
-    printf("%.17g\t%.17g\t%.17g\t%.17g\n", t, y[0], y[1], energy(w->drop, y));
+    printf("%.17g\t%.17g\t%.17g\t%.17g\n", t, y[0], y[1],
+           drop_energy(&b->drop, y));
   }
+  return EXIT_DONE;
 }
 
 static double velocity_at(double t, void *it) {
@@ -213,21 +168,21 @@ static double find_apex(struct integrator *it, double from, double to) {
 
 /* One row: time of the first apex after the rebound beside the hard-contact
    limit (1 + e) sqrt(2 h0/g). */
-static int print_rebound(struct watch *w, double height, double time) {
-  struct integrator *it = w->it;
-  const struct drop *d = w->drop;
+static int print_rebound(struct bounce *b) {
+  const struct drop *d = &b->drop;
   bool rising = false;
-  while (integrate_time(it) < time) {
-    const double before = integrate_time(it);
-    step_or_die(w);
-    const double v = integrate_state(it)[1];
+  while (integrate_time(b->it) < b->time) {
+    const double before = integrate_time(b->it);
+    if (step(b) != GSL_SUCCESS)
+      return EXIT_INTEGRATION;
+    const double v = integrate_state(b->it)[1];
     if (rising && v <= 0) {
-      const double t = find_apex(it, before, integrate_time(it));
+      const double t = find_apex(b->it, before, integrate_time(b->it));
       double y[2];
-      if (integrate_at(it, t, y) != GSL_SUCCESS)
+      if (integrate_at(b->it, t, y) != GSL_SUCCESS)
         die(EXIT_IO, "internal error: no state at t=%g", t);
       const double e = d->law.restitution;
-      const double hard = (1 + e) * sqrt(2 * height / d->gravity);
+      const double hard = (1 + e) * sqrt(2 * b->height / d->gravity);
       puts("restitution\tkappa\tt_hard\tt_rebound\terror_percent\tz_peak");
       printf("%.17g\t%.17g\t%.17g\t%.17g\t%.17g\t%.17g\n", e, d->law.kappa,
              hard, t, 100 * (t / hard - 1), y[0]);
@@ -235,9 +190,10 @@ static int print_rebound(struct watch *w, double height, double time) {
     }
     rising = rising || v > 0;
   }
-  warn("t=%g: the sphere has not come back to rest at its apex; a longer "
-       "--time is needed",
-       time);
+  run_watch_say(b->watch,
+                "t=%g: the sphere has not come back to rest at its apex; a "
+                "longer --time is needed",
+                b->time);
   return EXIT_LIMIT;
 }
 
@@ -257,20 +213,24 @@ int main(int argc, char **argv) {
   law->restitution = 1;
   struct integrate_options integrate = {
       .method = "merson", .control = "standard", .tol = 1e-10, .hinit = 0.1};
-  double travel = 1, height = 16, gravity = 9.81, time = 10;
+  struct bounce b = {.integrate = &integrate, .height = 16, .time = 10};
+  double travel = 1, gravity = 9.81;
   size_t samples = 1000;
-  bool rebound = false;
+  const char *stats_file = NULL;
+  bool rebound = false, quiet = false;
   /* clang-format off */
   struct option_spec options[] = {
-      POSITIVE("height", &height, "m", "height it is dropped from"),
+      POSITIVE("height", &b.height, "m", "height it is dropped from"),
       LAW_OPTIONS(*law),
       POSITIVE("gravity", &gravity, "m/s^2", "gravity"),
-      POSITIVE("time", &time, "s", "end"),
+      POSITIVE("time", &b.time, "s", "end"),
       {.name = "samples", .type = OPTION_SIZE, .value = &samples, .least = 1,
        .most = 1e9, .help = "rows, evenly in time"},
       {.name = "rebound", .type = OPTION_FLAG, .value = &rebound,
        .help = "one row instead: the first apex after the rebound"},
       INTEGRATION_OPTIONS(integrate, travel),
+      STATS_OPTION(stats_file),
+      QUIET_OPTION(quiet),
       {0}};
   /* clang-format on */
   const struct program program = {
@@ -289,32 +249,26 @@ int main(int argc, char **argv) {
   if (wrong)
     die(EXIT_USAGE, "%s", wrong);
 
-  struct drop drop = {*law, gravity, travel / law->kappa};
-  /* as for settle: gaps in 1/kappa, speeds in m/s */
-  const double scale[2] = {1 / law->kappa, 1};
-  const struct integrate_problem problem = {.system = {.function = rhs,
-                                                       .jacobian = jacobian,
-                                                       .dimension = 2,
-                                                       .params = &drop},
-                                            .scale = scale,
-                                            .row = 2,
-                                            .positions = 1,
-                                            .step_limit =
-                                                travel > 0 ? step_limit : NULL};
-  struct integrator *it;
-  const int status = integrate_alloc(&it, &integrate, &problem, 0,
-                                     (const double[]){height, 0});
-  if (status != GSL_SUCCESS)
-    die_status(status, "--method %s", integrate.method);
+  const struct run_clock begun = run_clock_now();
+  struct output_file stats;
+  if (stats_file)
+    output_open(&stats, stats_file);
+  b.drop = (struct drop){.force = drop_contact,
+                         .law = *law,
+                         .gravity = gravity,
+                         .travel = travel / law->kappa};
+  start(&b, begun, quiet);
   print_header(options);
-  int code = EXIT_DONE;
-  struct watch w = watch_start(it, &drop, &integrate);
-  if (rebound)
-    code = print_rebound(&w, height, time);
-  else
-    print_samples(&w, time, samples);
-  watch_end(&w);
-  integrate_free(it);
+  const int code = rebound ? print_rebound(&b) : print_samples(&b, samples);
+  run_watch_end(b.watch, code == EXIT_INTEGRATION);
   finish_output();
+  if (stats_file) {
+    run_watch_solver_stats(b.watch, stats.stream, 2, b.drop.evaluations,
+                           GSL_MIN(integrate_time(b.it), b.time));
+    run_watch_stats(b.watch, stats.stream, code);
+    output_commit(&stats);
+  }
+  run_watch_free(b.watch);
+  integrate_free(b.it);
   return code;
 }

@@ -1,18 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#define _POSIX_C_SOURCE 200809L
 #include "run.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
-#include <unistd.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include "program/files.h"
 #include "program/integration.h"
 #include "model/rest.h"
-#include "platform/system.h"
 #include "dynamics/motion.h"
 #include "watch.h"
 
@@ -27,15 +22,7 @@ struct run {
   struct rest_watch rest;
   size_t frames; /* written */
   FILE *log;
-  double wall_start, cpu_start, shown;
-  bool show;
 };
-
-static double seconds(clockid_t clock) {
-  struct timespec t;
-  clock_gettime(clock, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static void write_frame(struct run *r, const double *y, double t) {
   static const struct bed_header none = {0};
@@ -57,22 +44,24 @@ static double frame_time(const struct run *r, size_t k) {
   return r->start + (s->time - r->start) * (double)k / (double)(s->frames - 1);
 }
 
-/* Every frame that is due by now. */
-static void write_due_frames(struct run *r) {
-  const double t = integrate_time(r->motion->integrator);
-  while (r->frames < r->set->frames && frame_time(r, r->frames) <= t) {
-    const double at = frame_time(r, r->frames);
-    if (integrate_at(r->motion->integrator, at, r->y) == GSL_SUCCESS)
-      write_frame(r, r->y, at);
-    else
-      die(EXIT_IO, "internal error: frame at t=%g outside the last step", at);
-  }
+/* The state at a time within the last step as a frame, looked at. */
+static int write_state(struct run *r, double t, bool last,
+                       struct watch_finding *f) {
+  if (integrate_at(r->motion->integrator, t, r->y) != GSL_SUCCESS)
+    die(EXIT_IO, "internal error: no state at t=%g", t);
+  write_frame(r, r->y, t);
+  return watch_frame(r->watch, r->bed, last, f);
 }
 
-/* Of the method, without the watch's own. */
-static size_t evaluations(const struct run *r) {
-  return dynamics_counts(r->motion->dynamics).evaluations -
-         watch_evaluations(r->watch);
+/* Every frame that is due by now; what is wrong with one ends the run. */
+static int write_due_frames(struct run *r, struct watch_finding *f) {
+  const double t = integrate_time(r->motion->integrator);
+  int status = GSL_SUCCESS;
+  while (status == GSL_SUCCESS && r->frames < r->set->frames &&
+         frame_time(r, r->frames) <= t)
+    status = write_state(r, frame_time(r, r->frames),
+                         r->frames + 1 == r->set->frames, f);
+  return status;
 }
 
 static void write_log(struct run *r) {
@@ -80,23 +69,9 @@ static void write_log(struct run *r) {
   fprintf(r->log, "%.17g\t%.17g\t%zu\t%zu\t%.17g\t%.17g\n",
           integrate_time(r->motion->integrator),
           integrate_last_step(r->motion->integrator),
-          integrate_counts(r->motion->integrator).accepted, evaluations(r),
-          dynamics_kinetic(r->motion->dynamics, y),
+          integrate_counts(r->motion->integrator).accepted,
+          watch_evaluations(r->watch), dynamics_kinetic(r->motion->dynamics, y),
           dynamics_potential(r->motion->dynamics, y));
-}
-
-static void show_progress(struct run *r) {
-  const double elapsed = seconds(CLOCK_MONOTONIC) - r->wall_start;
-  if (!r->show || elapsed < r->shown + 0.5)
-    return;
-  r->shown = elapsed;
-  const double t = integrate_time(r->motion->integrator);
-  const double done = (t - r->start) / (r->set->time - r->start);
-  fprintf(stderr,
-          "\rsettle: %3.0f %%  t=%.3f s  h=%.2e s  %zu evaluations  %.0f s "
-          "left \033[K",
-          100 * done, t, integrate_last_step(r->motion->integrator),
-          evaluations(r), elapsed * (1 - done) / GSL_MAX(done, 1e-9));
 }
 
 static bool at_rest(struct run *r) {
@@ -107,67 +82,65 @@ static bool at_rest(struct run *r) {
       r->set->scene.law.vmin);
 }
 
-static void write_stats(const struct run *r, FILE *out, double t_end,
-                        int status) {
-  const struct settings *s = r->set;
-  const struct integrate_counts steps = integrate_counts(r->motion->integrator);
-  const struct dynamics_counts counts = dynamics_counts(r->motion->dynamics);
-  fprintf(out, "method\t%s\n", s->integrate.method);
-  fprintf(out, "control\t%s\n",
-          s->integrate.step > 0 ? "none" : s->integrate.control);
-  fprintf(out, "spheres\t%zu\n", r->bed->n);
-  fprintf(out, "unknowns\t%zu\n", dynamics_dimension(r->motion->dynamics));
-  fprintf(out, "rhs_evaluations\t%zu\n", evaluations(r));
-  fprintf(out, "steps_accepted\t%zu\n", steps.accepted);
-  fprintf(out, "steps_rejected\t%zu\n", steps.rejected);
-  fprintf(out, "cpu_seconds\t%.6f\n",
-          seconds(CLOCK_PROCESS_CPUTIME_ID) - r->cpu_start);
-  fprintf(out, "wall_seconds\t%.6f\n",
-          seconds(CLOCK_MONOTONIC) - r->wall_start);
-  fprintf(out, "threads\t%zu\n", s->threads);
-  fprintf(out, "kernel\t%s\n", dynamics_kernel(r->motion->dynamics));
-  fprintf(out, "t_end\t%.17g\n", t_end);
-  fprintf(out, "pair_list_builds\t%zu\n", counts.builds);
-  fprintf(out, "contacts_listed\t%zu\n", counts.contacts);
-  const long memory = system_peak_memory();
-  if (memory >= 0)
-    fprintf(out, "peak_memory_kb\t%ld\n", memory);
-  watch_stats(r->watch, out);
-  fprintf(out, "exit_status\t%d\n", status);
+/* The exit status of a run that ends at t for what was found, and in reason
+   what the bed is marked with. */
+static int failed(double t, const struct watch_finding *f, char *reason,
+                  size_t size) {
+  snprintf(reason, size, "failed at t=%.6g: %s", t, f->what);
+  warn("t=%.6g: %s; the bed is marked as failed (docs/stability.md, \"%s\")", t,
+       f->what, f->page);
+  return EXIT_INTEGRATION;
 }
 
-/* page: of docs/stability.md */
-static int failed(double t, const char *what, const char *page, char *reason,
-                  size_t size) {
-  snprintf(reason, size, "failed at t=%.6g: %s", t, what);
-  warn("t=%.6g: %s; the bed is marked as failed (docs/stability.md, \"%s\")", t,
-       what, page);
-  return EXIT_INTEGRATION;
+/* One step and what follows from it. GSL_EFAILED for what is in f, GSL_ENOMEM,
+   GSL_CONTINUE for the next. */
+static int step(struct run *r, struct watch_finding *f) {
+  int status = integrate_step(r->motion->integrator);
+  if (status != GSL_SUCCESS && status != GSL_ENOMEM) {
+    snprintf(f->what, sizeof f->what, "%s",
+             integration_error(&r->set->integrate, status));
+    f->page = "Missed collisions";
+    return GSL_EFAILED;
+  }
+  if (status == GSL_SUCCESS && r->log)
+    write_log(r);
+  if (status == GSL_SUCCESS)
+    status = watch_step(r->watch, f);
+  if (status == GSL_SUCCESS)
+    status = write_due_frames(r, f);
+  watch_progress(r->watch);
+  return status;
 }
 
 /* Steps until the end, rest or failure; the exit status and, in reason, what
    the bed is marked with. */
 static int integrate_all(struct run *r, char *reason, size_t size) {
   const struct settings *s = r->set;
-  snprintf(reason, size, "ok");
-  write_due_frames(r);
-  while (integrate_time(r->motion->integrator) < s->time) {
-    const int status = integrate_step(r->motion->integrator);
-    const double t = integrate_time(r->motion->integrator);
-    if (status != GSL_SUCCESS)
-      return failed(t, integration_error(&s->integrate, status),
-                    "Missed collisions", reason, size);
-    if (r->log)
-      write_log(r);
-    char found[80];
-    if (!watch_step(r->watch, found, sizeof found))
-      return failed(t, found, "Missed collisions", reason, size);
-    write_due_frames(r);
-    show_progress(r);
-    if (s->until_rest && at_rest(r))
-      return EXIT_DONE;
+  struct watch_finding f;
+  bool rests = false;
+  int status = write_due_frames(r, &f);
+  while (status == GSL_SUCCESS && !rests &&
+         integrate_time(r->motion->integrator) < s->time) {
+    status = step(r, &f);
+    rests = status == GSL_SUCCESS && s->until_rest && at_rest(r);
   }
-  if (!s->until_rest)
+  const double t = GSL_MIN(integrate_time(r->motion->integrator), s->time);
+  /* ended before the last frame: the state reached is one more */
+  if (status != GSL_ENOMEM && r->frames < s->frames) {
+    struct watch_finding later;
+    const int last = write_state(r, t, true, &later);
+    if (status == GSL_SUCCESS) {
+      status = last;
+      f = later;
+    }
+  }
+  if (status == GSL_ENOMEM)
+    die(EXIT_IO, "out of memory");
+  watch_end(r->watch, status != GSL_SUCCESS);
+  if (status != GSL_SUCCESS)
+    return failed(t, &f, reason, size);
+  snprintf(reason, size, "ok");
+  if (rests || !s->until_rest)
     return EXIT_DONE;
   snprintf(reason, size, "limit: not at rest at t=%g", s->time);
   warn("not at rest at t=%g: surfaces still move at %.3g m/s, expected below "
@@ -182,11 +155,9 @@ static int integrate_all(struct run *r, char *reason, size_t size) {
 int run(const struct settings *s, struct bed *b,
         const struct bed_header *header) {
   struct run r = {.set = s, .header = header, .bed = b, .start = b->t};
+  const struct run_clock begun = run_clock_now();
   r.rest = rest_watch_begin(b->t);
-  r.wall_start = seconds(CLOCK_MONOTONIC);
-  r.cpu_start = seconds(CLOCK_PROCESS_CPUTIME_ID);
-  r.show = !s->quiet && isatty(STDERR_FILENO);
-  const int status = motion_alloc(
+  int status = motion_alloc(
       &r.motion, &s->scene, b, &s->integrate,
       &(struct dynamics_options){.all_pairs = !strcmp(s->pairs, "all"),
                                  .threads = (int)s->threads},
@@ -204,29 +175,20 @@ int run(const struct settings *s, struct bed *b,
     r.log = log.stream;
     fputs("t\th\tsteps\tevaluations\tkinetic\tpotential\n", r.log);
   }
-
-  r.watch = watch_start(s, b, r.motion);
-  if (!r.watch)
-    die(EXIT_IO, "out of memory");
+  status = watch_alloc(&r.watch, s, b, r.motion, begun);
+  if (status == GSL_EFAILED)
+    die(EXIT_INPUT, "the start's energy is not finite");
+  if (status != GSL_SUCCESS)
+    die_status(status, "start");
   char reason[160];
   const int code = integrate_all(&r, reason, sizeof reason);
-  if (r.show)
-    fputs("\r\033[K", stderr);
-  if (code != EXIT_INTEGRATION)
-    watch_end(r.watch);
-  const double t_end = GSL_MIN(integrate_time(r.motion->integrator), s->time);
-  /* ended before the last frame: the state reached is one more */
-  if (r.frames < s->frames) {
-    if (integrate_at(r.motion->integrator, t_end, r.y) != GSL_SUCCESS)
-      die(EXIT_IO, "internal error: no state at t=%g", t_end);
-    write_frame(&r, r.y, t_end);
-  }
   bed_write_status(stdout, reason);
   finish_output();
   if (s->log)
     output_commit(&log);
   if (s->stats) {
-    write_stats(&r, stats.stream, t_end, code);
+    const double t_end = integrate_time(r.motion->integrator);
+    watch_stats(r.watch, stats.stream, GSL_MIN(t_end, s->time), code);
     output_commit(&stats);
   }
   watch_free(r.watch);

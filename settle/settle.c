@@ -51,8 +51,7 @@ int main(int argc, char **argv) {
       {.name = "frames", .type = OPTION_SIZE, .value = &s.frames, .least = 1,
        .most = 1e9, .unit = "1: the last state",
        .help = "states written, evenly from start to end"},
-      {.name = "stats", .type = OPTION_TEXT, .value = &s.stats,
-       .help = "file for the solver's statistics"},
+      STATS_OPTION(s.stats),
       {.name = "log", .type = OPTION_TEXT, .value = &s.log,
        .help = "file for one row per accepted step"},
       {.name = "threads", .type = OPTION_SIZE, .value = &s.threads,
@@ -60,8 +59,7 @@ int main(int argc, char **argv) {
       {.name = "allow-partial", .type = OPTION_FLAG,
        .value = &s.allow_partial,
        .help = "take a scene that is cut short or marked as failed"},
-      {.name = "quiet", .type = OPTION_FLAG, .value = &s.quiet,
-       .help = "no progress"},
+      QUIET_OPTION(s.quiet),
       {0}};
   /* clang-format on */
   /* the end belongs to a run, not to a scene */

@@ -7,14 +7,10 @@
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include "program/files.h"
-#include "geometry/neighbors.h"
+#include "model/bed_check.h"
 #include "files/formats.h"
 #include "files/radius_keys.h"
 #include "program/version.h"
-
-/* Settled spheres overlap, the more so the softer they are (kappa = 30: by
-   0.12 m); closer than this they were never a bed. */
-static const double closest = 0.4; /* of the sum of radii */
 
 static void check_memory(int status) {
   if (status == GSL_ENOMEM)
@@ -66,34 +62,25 @@ static bool is_step_control(const struct option_spec *o) {
 
 static void check_walls(const struct scene *scene, const struct bed *b,
                         const char *name) {
-  for (size_t i = 0; i < b->n; i++)
-    for (size_t k = 0; k < scene->walls_count; k++) {
-      const double *x = b->x + 3 * i;
-      if (!(wall_distance(&scene->walls[k], x) > 0))
-        die(EXIT_INPUT,
-            "%s: sphere %ld at (%g, %g, %g) has its centre outside wall %zu",
-            name, b->id[i], x[0], x[1], x[2], k + 1);
-    }
+  const struct bed_outsiders o = bed_find_outsiders(scene, b);
+  const double *x = b->x + 3 * o.sphere;
+  if (o.count)
+    die(EXIT_INPUT,
+        "%s: sphere %ld at (%g, %g, %g) has its centre outside wall %zu", name,
+        b->id[o.sphere], x[0], x[1], x[2], o.wall + 1);
 }
 
 static void check_overlaps(const struct bed *b, const char *name) {
-  struct neighbors near = {0};
-  const int status = neighbors_find(&near, b->n, b->x, 3, b->r, 0);
+  struct bed_crowd c;
+  const int status = bed_find_crowd(b, &c);
   check_memory(status);
   if (status != GSL_SUCCESS)
     die(EXIT_INPUT, "%s: a coordinate is not finite", name);
-  for (size_t p = 0; p < near.count; p++) {
-    const size_t i = near.i[p], j = near.j[p];
-    double u[3];
-    vec3_sub(b->x + 3 * i, b->x + 3 * j, u);
-    const double d = vec3_norm(u), touch = b->r[i] + b->r[j];
-    if (d < closest * touch)
-      die(EXIT_INPUT,
-          "%s: spheres %ld and %ld overlap: centres %g m apart, expected at "
-          "least %g m",
-          name, b->id[i], b->id[j], d, closest * touch);
-  }
-  neighbors_free(&near);
+  if (c.pairs)
+    die(EXIT_INPUT,
+        "%s: spheres %ld and %ld overlap: centres %g m apart, expected at "
+        "least %g m",
+        name, b->id[c.i], b->id[c.j], c.distance, c.expected);
 }
 
 /* Parameters as they now stand, then what a file had and we do not know. */

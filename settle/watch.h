@@ -1,36 +1,57 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a run looks at beside its results, so that a bed that went wrong does
-   not pass for a good one: a step at its stability limit, spheres that go too
-   deep into each other or through a wall, energy from nowhere, a tolerance that
-   the cut at lmax does not allow. Not in the paper. It reads the state of
-   accepted steps and changes no bit of the trajectory. README.md lists the
-   warnings and the keys of the statistics. Tested in tests/test_watch.sh. */
+   not pass for a good one: beside what every run is watched for
+   (program/run_watch.h), spheres that go too deep into each other or through a
+   wall, and a tolerance that the cut at lmax does not allow. Not in the paper.
+   It reads the state of accepted steps and changes no bit of the trajectory.
+   README.md lists the warnings and the keys of the statistics. Tested in
+   tests/test_watch.sh. */
 #ifndef WATCH_H
 #define WATCH_H
 
 #include <stdio.h>
-#include "model/bed.h"
 #include "dynamics/motion.h"
+#include "model/bed.h"
+#include "program/run_watch.h"
 #include "settings.h"
 
 struct watch;
 
-/* Looks at the settings and the start; keeps the pointers. NULL without
-   memory. */
-struct watch *watch_start(const struct settings *s, const struct bed *b,
-                          struct motion *m);
+/* What makes a bed a failed one: what, in words, and the title of a section of
+   docs/stability.md. */
+struct watch_finding {
+  char what[120];
+  const char *page;
+};
 
-/* After every accepted step. False if a sphere was pushed through a wall;
-   reason then says which, in at most size bytes. */
-bool watch_step(struct watch *w, char *reason, size_t size);
+/* Looks at the settings and the start; keeps the pointers. GSL_SUCCESS,
+   GSL_EFAILED for a start without a finite energy, GSL_ENOMEM. */
+int watch_alloc(struct watch **out, const struct settings *s,
+                const struct bed *b, struct motion *m, struct run_clock begun);
+void watch_free(struct watch *w);
 
-/* Evaluations of the right-hand side that were the watch's own. */
+/* After every accepted step. GSL_EFAILED if a sphere was pushed through a wall,
+   or a number that is computed from the state is none; f then says which.
+   GSL_ENOMEM. */
+int watch_step(struct watch *w, struct watch_finding *f);
+
+/* A frame as it was written, the last one or another. GSL_EFAILED if a centre
+   is outside of a wall or, in the last one, two spheres are nearly in one
+   place; f then says which. GSL_ENOMEM. */
+int watch_frame(const struct watch *w, const struct bed *b, bool last,
+                struct watch_finding *f);
+
+/* Evaluations of the right-hand side that were the run's own, without those of
+   the watch. */
 size_t watch_evaluations(const struct watch *w);
 
-/* What can be said at the end only, of a run that did not fail, and what goes
+/* The line of progress, after a step. */
+void watch_progress(struct watch *w);
+
+/* The end: what can be said only now, of a run that did not fail, and what goes
    to --stats. */
-void watch_end(struct watch *w);
-void watch_stats(const struct watch *w, FILE *out);
-void watch_free(struct watch *w);
+void watch_end(struct watch *w, bool failed);
+void watch_stats(const struct watch *w, FILE *out, double t_end,
+                 int exit_status);
 
 #endif

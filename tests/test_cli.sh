@@ -167,6 +167,43 @@ for program in settle bounce; do
     $program --method msbdf --step 0.001
 done
 
+# A file is not written that is read, or written by another option, or standard
+# output; pipes and devices are shared.
+mkdir "$T/twice"
+"$B/settle" --count 2 --time 0 >"$T/twice/bed"
+cp "$T/twice/bed" "$T/twice/copy"
+ln -s bed "$T/twice/link"
+refuse 'scene and stats' 2 'twice/bed: expected another file' \
+  settle --scene "$T/twice/bed" --time 0.1 --stats "$T/twice/bed"
+refuse 'scene by a link, and log' 2 'twice/link: expected another file' \
+  settle --scene "$T/twice/bed" --time 0.1 --log "$T/twice/link"
+refuse 'one file twice, not there yet' 2 'twice/.*new: expected another file' \
+  settle --count 2 --time 0.1 --stats "$T/twice/new" --log "$T/twice/./new"
+check 'nothing was made' test "$(ls "$T/twice")" = $'bed\ncopy\nlink'
+into() { # NAME FILE PROGRAM ARGUMENT...: with standard output into the file
+  "$B/$3" "${@:4}" >"$2" 2>"$T/err"
+  status=$?
+  check "$1: $status" test $status = 2
+  check "$1: one line" one_line "$3" 'expected another file'
+}
+into 'stats is standard output' "$T/twice/out" settle --count 2 --time 0.1 \
+  --stats "$T/twice/out"
+into 'bounce: stats is standard output' "$T/twice/out" bounce --time 0.1 \
+  --stats "$T/twice/out"
+into 'the scene is standard output' "$T/twice/copy" settle --time 0.1 \
+  --scene "$T/twice/copy"
+"$B/settle" --scene - --stats "$T/twice/bed" <"$T/twice/bed" 2>"$T/err"
+check 'standard input and stats' test $? = 2
+check 'the bed is as it was' grep -q '^# status=ok' "$T/twice/bed"
+succeed 'two nulls' settle --count 2 --time 0.1 --stats /dev/null --log /dev/null
+for program in settle bounce; do
+  refuse "$program --stats -" 2 '^[a-z]*: -: expected .*/dev/stderr' \
+    $program --time 0.1 --stats -
+  "$B/$program" --time 0.1 --stats /dev/stderr >"$T/out" 2>"$T/err"
+  check "$program --stats /dev/stderr: $?" \
+    grep -q $'^rhs_evaluations\t[1-9]' "$T/err"
+done
+
 # --help tells the defaults in use: bounce has its own, settle leaves them to the
 # method and the control.
 help_says() { # PROGRAM OPTION DEFAULT
@@ -247,6 +284,8 @@ for p in settle bounce analyze; do
   check "$p --help: at least as an example" grep -q "^  $p \|| $p" "$T/out"
   lists $p help version
 done
+succeed 'help of bounce' bounce --help
+lists bounce stats quiet
 succeed 'help of settle' settle --help
 lists settle scene count radius base drop jitter seed model restitution \
   friction gravity f0 kappa psi vmin lmax time wall method control tol abstol \

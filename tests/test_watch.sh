@@ -8,9 +8,7 @@
 run() { # PROGRAM ARGUMENT...: into $T/out, $T/err, $T/stats and $status
   said="$*"
   rm -f "$T/stats"
-  local stats=()
-  [[ $1 == settle ]] && stats=(--stats "$T/stats")
-  timeout 60 "$B/$1" "${@:2}" "${stats[@]}" >"$T/out" 2>"$T/err" </dev/null
+  timeout 60 "$B/$1" --stats "$T/stats" "${@:2}" >"$T/out" 2>"$T/err" </dev/null
   status=$?
 }
 
@@ -23,7 +21,8 @@ key() { # NAME CONDITION: of the statistics, in terms of x
 silent() {
   check 'exit status' test $status = 0
   check 'nothing said' test ! -s "$T/err"
-  [[ ! -e $T/stats ]] || key warnings 'x == 0'
+  key warnings 'x == 0'
+  key exit_status 'x == 0'
 }
 
 warns() { # COUNT PATTERN...: COUNT lines, each pattern in exactly one of them
@@ -38,7 +37,7 @@ warns() { # COUNT PATTERN...: COUNT lines, each pattern in exactly one of them
 warned() { # COUNT PATTERN...: and the run is done
   check 'exit status' test $status = 0
   warns "$@"
-  [[ ! -e $T/stats ]] || key warnings "x == $1"
+  key warnings "x == $1"
 }
 
 page() { # NAME: as a warning ends
@@ -199,6 +198,86 @@ warns 1 "t=0.3: forces overflow with this --step; .*$(page 'Missed collisions')"
 run bounce --method verlet --step 1e-2
 check 'exit status' test $status = 4
 warns 1 "the sphere is .* below the floor, expected at most 0.0518 m .*$(page 'Missed collisions')"
+
+# --- a ruined bed is not called good --------------------------------------------
+failed_by() { # PATTERN: a failed mark with it, and no warning but what is said
+  check 'exit status' test $status = 4
+  key exit_status 'x == 4'
+  check "mark: $1" grep -Eq "^# status=failed at t=[^ ]*: $1" <(tail -n 1 "$T/out")
+  check "said: $1" grep -Eq "^settle: t=[^ ]*: $1.*; the bed is marked as failed \
+\(docs/stability.md, \"[A-Z]" "$T/err"
+}
+
+# spheres of 1 and 0.5 mm with forces for 100 mm: nothing holds them
+run settle --radius 5e-4 --time 0.5
+failed_by '1[0-9]+ of 200 centres are outside of walls, that of sphere [0-9]+ .* m outside wall 1'
+run settle --radius 1e-3 --base 0.01,0.01 --drop 0.011 --model basic --count 4 \
+  --time 0.2
+failed_by '4 of 4 centres are outside of walls'
+# at a frame, if it comes back until the end
+soft=(--count 1 --kappa 30 --lmax 0.3 --drop 3 --time 0.9)
+run settle "${soft[@]}" --frames 2
+check 'exit status' test $status = 0
+run settle "${soft[@]}" --frames 301
+failed_by '1 of 1 centres are outside of walls, that of sphere 0 .* outside wall 1'
+frames=$(grep -c '^# t=' "$T/out")
+check "$frames frames, the failed one among the last two" awk -F '\t' \
+  '/^[0-9]/ {z[++n] = $4} END {exit !(n > 200 && n < 301 && z[n - 2] > 0 && z[n - 1] <= 0)}' \
+  "$T/out"
+# what is called good is taken as a start, for too soft spheres as well
+for kappa in 15 20 25 30 45 60; do
+  run settle --count 32 --base 0.5,0.5 --drop 0 --kappa $kappa --lmax 1 --time 1.5
+  code=$status
+  cp "$T/out" "$T/bed"
+  run settle --scene "$T/bed" --time 1.5
+  check "kappa $kappa: $code, as a scene $status" \
+    test $((code == 4 ? 3 : code)) = $status
+  [[ $kappa != 15 ]] || check 'kappa 15 is a failure' test $code = 4
+  [[ $kappa != 60 ]] || check 'kappa 60 is none' test $code = 0
+done
+# two centres in one place, without walls
+printf '%s\n' '# format=bed-1' '# t=0' $'id\tx\ty\tz\tr\tvx' \
+  $'0\t-0.3\t0\t0\t0.1\t4' $'1\t0.3\t0\t0\t0.1\t-4' '# status=ok' >"$T/meet"
+run settle --scene "$T/meet" --gravity 0 --restitution 0 --friction 0 --kappa 5 \
+  --f0 0.1 --lmax 3 --time 0.08
+failed_by 'centres of spheres 0 and 1 are .* m apart, expected at least 0.08 m'
+run settle --scene "$T/meet" --gravity 0 --restitution 0 --friction 0 --kappa 5 \
+  --f0 0.1 --lmax 3 --time 0.3 # through and out again: none of its business
+check 'exit status' test $status = 0
+
+# --- numbers that are none ------------------------------------------------------
+run settle --method verlet --step 1 --count 20 --time 1
+failed_by 'the energy is not finite'
+check 'no nan in the statistics' test "$(grep -cE 'nan|inf' "$T/stats")" = 0
+# v^2 overflows, though no wall is there to be passed
+printf '%s\n' '# format=bed-1' '# t=0' $'id\tx\ty\tz\tr\tvx' \
+  $'0\t0\t0\t0\t0.1\t1e153' '# status=ok' >"$T/fast"
+run settle --scene "$T/fast" --gravity 0 --step 1e-200 --method merson \
+  --time 1e-199
+check 'exit status' test $status = 0
+sed -i 's/1e153/1e155/' "$T/fast"
+run settle --scene "$T/fast" --gravity 0 --step 1e-200 --method merson \
+  --time 1e-199
+check 'exit status' test $status = 3
+warns 1 "the start's energy is not finite"
+
+# --- bounce: the same statistics ------------------------------------------------
+run bounce --method merson
+silent
+key unknowns 'x == 2'
+key rhs_evaluations 'x > 1000 && x < 100000'
+key steps_accepted 'x > 200'
+key t_end 'x == 10'
+key energy_start 'x > 156.9 && x < 157'
+key h_rho_limit 'x > 3.4 && x < 3.6'
+run bounce --method rkc
+silent
+key stages_most 'x >= 2'
+run bounce --method verlet --step 1e-2
+key exit_status 'x == 4'
+run bounce --rebound --time 1
+check 'exit status' test $status = 5
+key exit_status 'x == 5'
 
 # --- threads change nothing that is said ---------------------------------------
 for threads in 1 2; do

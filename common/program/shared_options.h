@@ -35,6 +35,14 @@
   NUMBER("travel", &(travel), 0, OPTION_MANY, "in 1/kappa; 0: no limit",       \
          "furthest a sphere may go in a step")
 
+/* The solver's statistics, and silence. */
+#define STATS_OPTION(value_)                                                   \
+  {.name = "stats", .type = OPTION_TEXT, .value = &(value_),                   \
+   .help = "file for the solver's statistics"}
+#define QUIET_OPTION(value_)                                                   \
+  {.name = "quiet", .type = OPTION_FLAG, .value = &(value_),                   \
+   .help = "no progress"}
+
 /* The contact law, but for friction, into a struct contact_law c. */
 #define LAW_OPTIONS(c)                                                         \
   NUMBER("restitution", &(c).restitution, 0, 1, "",                            \

@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What every run is watched for, whatever moves in it, and said in the same
+   words: a step at its stability limit, energy from nowhere, numbers that are
+   none; and the statistics of its solver. Not in the paper. It looks at
+   accepted steps and changes no bit of the trajectory. README.md lists the
+   warnings and the keys of the statistics. Tested in tests/test_watch.sh. */
+#ifndef RUN_WATCH_H
+#define RUN_WATCH_H
+
+#include <stdbool.h>
+#include <stdio.h>
+#include "steppers/integrate.h"
+
+struct run_watch;
+
+/* The clocks of the statistics: on the wall, and of this process (s). */
+struct run_clock {
+  double wall, cpu;
+};
+struct run_clock run_clock_now(void);
+
+struct run_watch_options {
+  struct run_clock begun;
+  const struct integrate_options *integrate;
+  const struct integrator *integrator;
+  const char *stiff;  /* what makes the problem stiff: "friction" */
+  const char *whose;  /* the energy: "the spheres'" */
+  const char *result; /* of the run: "the bed" */
+  const char *nobody; /* why no energy can be lost: "e = 1"; NULL if it can */
+  const char *program;
+  bool progress; /* there is a line of progress on a terminal */
+};
+
+/* Keeps the pointers of the options. GSL_SUCCESS, GSL_ENOMEM. */
+int run_watch_alloc(struct run_watch **out, const struct run_watch_options *o);
+void run_watch_free(struct run_watch *w);
+
+/* Does the method have a limit of stability? Then it is to be told the fastest
+   mode of the problem before the first step and as it changes. */
+bool run_watch_wants_mode(const struct run_watch *w);
+void run_watch_mode(struct run_watch *w, struct stiffness_mode mode);
+
+/* After every accepted step. */
+void run_watch_step(struct run_watch *w);
+
+/* What the motion has left (J): gravity's energy, and what is kinetic or in
+   contacts; it never grows. rounding: of the sum. The first call is the
+   start's. GSL_SUCCESS, GSL_ERANGE where it is not finite. */
+int run_watch_energy(struct run_watch *w, double gravity, double inner,
+                     double rounding);
+/* Warns, once, of energy that came from nowhere or was lost. */
+void run_watch_tell_energy(struct run_watch *w);
+/* The share of the energy that came from nowhere, as of the last call. */
+double run_watch_energy_share(const struct run_watch *w);
+
+/* A warning, counted. */
+void run_watch_say(struct run_watch *w, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+/* The end: no more progress; and what can be said only now, of a run that did
+   not fail. */
+void run_watch_end(struct run_watch *w, bool failed);
+
+/* For --stats: the solver's keys, then those of the watch, then the program's
+   exit status. evaluations: of the right-hand side, but for the watch's own. */
+void run_watch_solver_stats(const struct run_watch *w, FILE *out,
+                            size_t unknowns, size_t evaluations, double t_end);
+void run_watch_stats(const struct run_watch *w, FILE *out, int exit_status);
+
+/* The line of progress on a terminal, now and then: the share done, by time,
+   and what is left. */
+void run_watch_progress(struct run_watch *w, double end, size_t evaluations);
+
+#endif
