@@ -706,6 +706,59 @@ static void test_radius(void) {
   }
 }
 
+/* Undamped oscillators, y'' = -w^2 y, positions in m and velocities in m/s: the
+   radius is the largest w, not w^2, which a norm over both sees every second
+   time. */
+struct oscillators {
+  size_t n;
+  const double *w;
+  double damping; /* share of w */
+};
+
+static int oscillators_f(double t, const double y[], double dydt[],
+                         void *params) {
+  (void)t;
+  const struct oscillators *o = params;
+  for (size_t i = 0; i < o->n; i++) {
+    dydt[2 * i] = y[2 * i + 1];
+    dydt[2 * i + 1] =
+        -o->w[i] * o->w[i] * y[2 * i] - 2 * o->damping * o->w[i] * y[2 * i + 1];
+  }
+  return GSL_SUCCESS;
+}
+
+static void test_undamped(void) {
+  static const double single[] = {1e3},
+                      many[] = {1e3, 900, 800, 500, 300, 100, 10, 1};
+  const struct {
+    struct oscillators o;
+    double off; /* of the estimate, as a share */
+    size_t most;
+  } cases[] = {/* rounding of differences: 1e-8 by 1e-3 */
+               {{1, single, 0}, 1e-4, 3},
+               {{1, single, 0.02}, 0.1, 50},
+               /* others take part in it before they are behind */
+               {{COUNT(many), many, 0}, 0.25, 50}};
+  for (size_t k = 0; k < COUNT(cases); k++) {
+    struct oscillators o = cases[k].o;
+    const size_t dim = 2 * o.n;
+    const gsl_odeiv2_system sys = {oscillators_f, NULL, dim, &o};
+    double y[2 * COUNT(many)], yerr[2 * COUNT(many)];
+    for (size_t i = 0; i < o.n; i++) {
+      y[2 * i] = 1 / o.w[i];
+      y[2 * i + 1] = 0; /* the derivative has no part in a position */
+    }
+    gsl_odeiv2_step *step = gsl_odeiv2_step_alloc(rkc, dim);
+    CHECK(gsl_odeiv2_step_apply(step, 0, 1.8e-3, y, yerr, NULL, NULL, &sys) ==
+          GSL_SUCCESS);
+    const struct rkc_report r = rkc_report(step);
+    CHECK_REL(r.spectral_radius, 1.2e3, cases[k].off);
+    CHECK(r.power_evaluations <= cases[k].most);
+    CHECK(r.stages <= 3);
+    gsl_odeiv2_step_free(step);
+  }
+}
+
 /* A stiff mode apart from all others which the first slope has nothing of: the
    power iteration never sees it. The steps are then short but none is wrong. */
 static void test_hidden_mode(void) {
@@ -996,6 +1049,7 @@ int main(void) {
   test_stability_polynomial();
   test_oblique();
   test_radius();
+  test_undamped();
   test_hidden_mode();
   test_derivatives();
   test_failures();

@@ -77,6 +77,10 @@ silent
 key stiffness_ratio 'x > 0.05 && x < 1'
 run settle "${elastic[@]}" --time 1
 silent
+# without damping rkc's radius is a frequency, not its square
+key stages_mean 'x < 2.5'
+key spectral_radius_largest 'x > 300 && x < 1e4'
+key rhs_evaluations 'x < 10000' # 22673 by the square
 run settle "${narrow[@]}" --model basic --kappa 500 --time 0.6
 silent
 run settle --count 4 --time 0.4 --method msbdf

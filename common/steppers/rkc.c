@@ -19,18 +19,23 @@ static const double safety = 1.2;
    for it is rejected. */
 static const double agreement = 0.1;
 
+/* Lengths that swing by more than this are of complex eigenvalues. */
+static const double swing = 3;
+
 /* Power iterations at most when nothing is known and when something is, and
    how many steps an estimate serves unless one is rejected. */
 enum { FIRST_ITERATIONS = 50, NEXT_ITERATIONS = 8, ESTIMATE_SERVES = 4 };
 
 struct state {
   bool known;            /* there is an estimate and a direction */
-  double radius;         /* spectral radius */
+  double radius;         /* spectral radius, with the safety */
+  double length;         /* of the last power iteration */
   size_t steps;          /* since it was estimated */
   stage_function *stage; /* of the system, or NULL */
   int threads;
   struct chebyshev *chebyshev;
-  double last_start; /* of the last attempt, to know a second one by */
+  double least_reach; /* of two stages */
+  double last_start;  /* of the last attempt, to know a second one by */
   struct rkc_report report;
   size_t dim;
   double work[]; /* direction, y at the start, two stages, slopes: 6 dim */
@@ -44,6 +49,7 @@ static void *alloc(size_t dim) {
   }
   s->dim = dim;
   s->threads = 1;
+  s->least_reach = chebyshev_reach(2);
   s->last_start = GSL_NAN;
   return s;
 }
@@ -112,7 +118,24 @@ static int power_iterate(struct state *s, double t, const double *y,
   return GSL_SUCCESS;
 }
 
-static int estimate_radius(struct state *s, double t, const double *y,
+/* Where a pair of complex eigenvalues is the fastest, as of contacts with
+   little damping, positions and velocities take turns: the lengths swing about
+   |lambda| by the ratio of their units, as w^2, 1, w^2, ... for +-i w, and the
+   geometric mean of two in a row is |lambda|. length: the last three, the
+   latest first. */
+static bool turns(const double length[3]) {
+  return (length[1] < length[0]) == (length[1] < length[2]);
+}
+
+static bool swings(const double length[3]) {
+  const double up = GSL_MIN(length[0], length[2]) / length[1];
+  const double down = length[1] / GSL_MAX(length[0], length[2]);
+  const double now = sqrt(length[0] * length[1]),
+               before = sqrt(length[1] * length[2]);
+  return GSL_MAX(up, down) > swing && fabs(now - before) <= agreement * now;
+}
+
+static int estimate_radius(struct state *s, double t, double h, const double *y,
                            const double *f, const gsl_odeiv2_system *sys) {
   size_t most = NEXT_ITERATIONS;
   if (!s->known) {
@@ -121,17 +144,27 @@ static int estimate_radius(struct state *s, double t, const double *y,
     if (!(norm(s->dim, f) > 0))
       for (size_t i = 0; i < s->dim; i++)
         s->work[i] = i % 2 ? 1 : -1;
-    s->radius = 0;
+    s->length = 0;
   }
-  double last = s->radius / safety, radius = 0;
+  double length[3] = {s->length}, radius = 0;
   for (size_t k = 0; k < most; k++) {
-    const int status = power_iterate(s, t, y, f, sys, &radius);
+    length[2] = length[1];
+    length[1] = length[0];
+    const int status = power_iterate(s, t, y, f, sys, &length[0]);
     if (status != GSL_SUCCESS)
       return status;
-    if ((last > 0 || k) && fabs(radius - last) <= agreement * radius)
+    radius = length[0];
+    if ((length[1] > 0 || k) && fabs(radius - length[1]) <= agreement * radius)
       break;
-    last = radius;
+    /* nothing to find out where the fewest stages do for either */
+    if (k < 2 || !turns(length) ||
+        fabs(h) * safety * GSL_MAX(length[0], length[1]) <= s->least_reach)
+      continue;
+    radius = sqrt(length[0] * length[1]);
+    if (swings(length))
+      break;
   }
+  s->length = length[0];
   s->radius = s->report.spectral_radius = safety * radius;
   s->steps = 0;
   s->known = true;
@@ -153,7 +186,7 @@ static int apply(void *vstate, size_t dim, double t, double h, double y[],
   const bool rejected = t == s->last_start;
   if (status == GSL_SUCCESS &&
       (!s->known || rejected || ++s->steps > ESTIMATE_SERVES))
-    status = estimate_radius(s, t, y, f0, sys);
+    status = estimate_radius(s, t, h, y, f0, sys);
   s->last_start = t;
   if (status != GSL_SUCCESS)
     return status;
