@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <gsl/gsl_errno.h>
+#include <gsl/gsl_statistics.h>
 #include "program/files.h"
 #include "model/bed_check.h"
 #include "files/formats.h"
@@ -51,13 +52,42 @@ static void read_scene(const struct settings *s, struct bed *b,
   }
 }
 
-/* Belongs to a method: another one does not inherit it. */
-static bool is_step_control(const struct option_spec *o) {
-  const char *const names[] = {"control", "tol", "abstol", "reltol", "step"};
-  for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+static bool is_one_of(const struct option_spec *o, const char *const names[]) {
+  for (size_t i = 0; names[i]; i++)
     if (!strcmp(o->name, names[i]))
       return true;
   return false;
+}
+
+/* Belongs to a method: another one does not inherit it. */
+static bool is_step_control(const struct option_spec *o) {
+  static const char *const names[] = {"control", "tol",  "abstol",
+                                      "reltol",  "step", NULL};
+  return is_one_of(o, names);
+}
+
+/* Says how a start is made: a scene has been made already. */
+static bool is_of_start(const struct option_spec *o) {
+  static const char *const names[] = {"count",  "base", "drop",
+                                      "jitter", "seed", NULL};
+  return is_one_of(o, names);
+}
+
+static void refuse_options_of_start(const struct option_spec *options) {
+  for (const struct option_spec *o = options; o->name; o++)
+    if (o->given && is_of_start(o))
+      die(EXIT_USAGE, "--%s: makes a start, expected none beside --scene",
+          o->name);
+}
+
+/* Either the spheres have it or they have none of their own. */
+static void check_radius(const struct settings *s,
+                         const struct option_spec *option, const struct bed *b,
+                         const char *name) {
+  for (size_t i = 0; option->given && i < b->n; i++)
+    if (b->r[i] != s->fill.radius)
+      die(EXIT_USAGE, "--radius %g: sphere %ld of %s has a radius of %g m",
+          s->fill.radius, b->id[i], name, b->r[i]);
 }
 
 static void check_walls(const struct scene *scene, const struct bed *b,
@@ -83,18 +113,29 @@ static void check_overlaps(const struct bed *b, const char *name) {
         name, b->id[c.i], b->id[c.j], c.distance, c.expected);
 }
 
-/* Parameters as they now stand, then what a file had and we do not know. */
-static void write_header(const struct settings *s,
-                         const struct option_spec *options,
-                         struct bed_header *h) {
+/* The spheres' radius, the mean where they differ. */
+static double radius_of(const struct bed *b) {
+  const double least = gsl_stats_min(b->r, 1, b->n);
+  return gsl_stats_max(b->r, 1, b->n) > least ? gsl_stats_mean(b->r, 1, b->n)
+                                              : least;
+}
+
+/* Parameters as they now stand, then what a file had and we do not know. How
+   the start of a scene was made is for its file to say. */
+static void write_header(struct settings *s, const struct option_spec *options,
+                         const struct bed *b, struct bed_header *h) {
   char text[256];
+  s->fill.count = b->n;
+  s->fill.radius = radius_of(b);
   bed_header_remove(h, "wall");
   bed_header_remove(h, "status");
   check_memory(bed_header_set(h, "format", "bed-1"));
   check_memory(bed_header_set(h, "program", "settle"));
   check_memory(bed_header_set(h, "version", DEM_VERSION));
   for (const struct option_spec *o = options; o->name; o++) {
-    if (!o->parameter || o->each)
+    const bool of_file =
+        s->scene_file && is_of_start(o) && o->value != &s->fill.count;
+    if (!o->parameter || o->each || of_file)
       continue;
     option_text(o, text, sizeof text);
     check_memory(bed_header_set(h, o->name, text));
@@ -112,7 +153,9 @@ void start_make(struct settings *s, struct option_spec *options, struct bed *b,
   const char *name = "start";
   const bool own_walls = option_find(options, "wall")->given;
   if (s->scene_file) {
+    refuse_options_of_start(options);
     read_scene(s, b, header, &name);
+    check_radius(s, option_find(options, "radius"), b, name);
     const bool other_method = option_find(options, "method")->given;
     const char *bad =
         header_options(header, options, other_method ? is_step_control : NULL);
@@ -141,5 +184,5 @@ void start_make(struct settings *s, struct option_spec *options, struct bed *b,
   }
   check_walls(&s->scene, b, name);
   check_overlaps(b, name);
-  write_header(s, options, header);
+  write_header(s, options, b, header);
 }

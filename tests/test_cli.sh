@@ -414,6 +414,34 @@ check '--log: rows' awk -F '\t' -v evaluations="$(stat rhs_evaluations)" '
    t = $1; last = $4}
   END {exit bad || !(t >= 0.6) || last != evaluations}' "$T/files/log"
 
+# --- what a scene's header says -------------------------------------------------
+for option in 'count 3' 'base 1,1' 'drop 2' 'jitter 0' 'seed 9'; do
+  # shellcheck disable=SC2086
+  refuse "--$option beside --scene" 2 "--${option% *}: .*--scene" \
+    settle --scene "$T/good" --time 1 --$option
+done
+says() { # KEY VALUE: the header of the last output; empty: it has no such key
+  check "header: $1=$2" test "$(key "$1" "$T/out")" = "$2"
+}
+# a start of our own: what its file says of it stays, but for what is not so
+"$B/settle" --count 5 --seed 9 --drop 2 --base 2,3 --jitter 0.1 --time 0 |
+  sed 's/^# count=5/# count=77/' >"$T/seeded"
+succeed 'goes on' settle --scene "$T/seeded" --time 0.01
+says count 5
+says seed 9
+says drop 2
+says base 2,3
+says jitter 0.1
+says radius 0.1
+# one that somebody else made
+bed "$T/other" "${floor}" '0\t0\t0\t1\t0.0625\n1\t0\t0\t2\t0.125\n' "$ok"
+succeed 'goes on' settle --scene "$T/other" --time 0.01
+says count 2
+says radius 0.09375
+for absent in seed drop base jitter; do says $absent ''; done
+refuse 'another radius' 2 '--radius 0.0625: sphere 1 .*0.125 m' \
+  settle --scene "$T/other" --time 0.01 --radius 0.0625
+
 # --- a run that fails ---------------------------------------------------------
 rm -f "$T"/files/*
 run settle --count 8 --drop 0.5 --time 3 --step 0.3 "${both[@]}"
