@@ -204,7 +204,8 @@ static void test_primitives(gsl_rng *rng) {
       const bool meets = what ? solid_line_cylinder(a, b, radius, p, e, t)
                               : solid_line_ball(a, radius, p, e, t);
       bool right = true;
-      for (double s = -3; s < 3; s += 0.1) {
+      for (int k = -30; k < 30; k++) {
+        const double s = 0.1 * k;
         memcpy(q, p, sizeof q);
         vec3_axpy(s, e, q);
         const bool in = DISTANCE(q) < 0;

@@ -385,7 +385,8 @@ static double union_quadrature(size_t n, const double *x, const double *r,
 static void test_caps(void) {
   CHECK(volume_ball_planes(0, 0, NULL) == 0);
   CHECK_REL(volume_ball_planes(2, 0, NULL), ball(2), ULPS(2));
-  for (double h = -1.9; h < 2; h += 0.1) {
+  for (int k = -19; k < 20; k++) {
+    const double h = 0.1 * k;
     const double plane[1][4] = {{0.6, 0, -0.8, h}};
     CHECK_CLOSE(volume_ball_planes(2, 1, plane), ball(2) - cap(2, h),
                 ULPS(4) * ball(2));
@@ -454,7 +455,8 @@ static void test_shares(void) {
 static void test_degenerate_planes(void) {
   /* repeated, loosened, nearly repeated */
   const double c = cos(0.3), s = sin(0.3);
-  for (double h = -0.9; h < 1; h += 0.3) {
+  for (int k = -3; k <= 3; k++) {
+    const double h = 0.3 * k;
     const double rest = BALL - cap(1, h);
     const double same[4][4] = {
         {c, s, 0, h}, {c, s, 0, h}, {c, s, 0, h}, {c, s, 0, h + 0.01}};
@@ -480,7 +482,8 @@ static void test_degenerate_planes(void) {
   /* a triangle turned inside out, and one beyond the ball, whose planes all
      cut it */
   const double t = sqrt(0.75);
-  for (double h = 0.01; h < 1; h += 0.09) {
+  for (int k = 0; k < 11; k++) {
+    const double h = 0.01 + 0.09 * k;
     const double inside_out[3][4] = {
         {1, 0, 0, -h}, {-0.5, t, 0, -h}, {-0.5, -t, 0, -h}};
     CHECK(volume_ball_planes(1, 3, inside_out) == 0);
@@ -737,8 +740,9 @@ static double lens(double a, double b, double d) {
 }
 
 static void test_two(void) {
-  for (double b = 0.05; b < 1.5; b += 0.15)
-    for (double d = 0; d < 3; d += 0.03125) {
+  for (int i = 0; i < 10; i++)
+    for (int k = 0; k < 96; k++) {
+      const double b = 0.05 + 0.15 * i, d = 0.03125 * k;
       const double x[6] = {0.1, 0.2, 0.3, 0.1 + 0.6 * d, 0.2, 0.3 - 0.8 * d};
       const double r[2] = {1, b};
       CHECK_CLOSE(united(2, x, r, everywhere),
@@ -845,7 +849,8 @@ static void test_lattices(void) {
     CHECK_CLOSE(volume_sum(n, x, r, box), M_PI / sqrt(18), tol);
     CHECK_CLOSE(united(n, x, r, box), M_PI / sqrt(18), tol);
     /* overlapping by so little that no three spheres meet */
-    for (double s = 1.001; s < 1.15; s += 0.02) {
+    for (int k = 0; k < 8; k++) {
+      const double s = 1.001 + 0.02 * k;
       const double rs = s * touch;
       n = lattice(fcc, 4, rs, shifts[i], x, r);
       CHECK_CLOSE(volume_sum(n, x, r, box), 4 * ball(rs), tol);

@@ -42,8 +42,8 @@ END {
     }
   }
   print "step", "share"
-  for (e = -6; e <= -2.99; e += 0.05) {
-    h = exp(e * log(10))
+  for (e = 0; e <= 60; e++) {
+    h = exp((0.05 * e - 6) * log(10))
     unstable = 0
     for (c = 0; c < contacts; c++)
       if (h * rate[c] > 2) unstable += load[c]
