@@ -10,7 +10,7 @@
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_rstat.h>
 #include "platform/system.h"
-#include "program/options.h"
+#include "program/messages.h"
 
 /* Energy that may come from nowhere, as a share of what there is in motion and
    contacts. */
