@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What settle was asked to do. */
+/* The settings of a run of settle. */
 #ifndef SETTINGS_H
 #define SETTINGS_H
 

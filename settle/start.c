@@ -66,7 +66,8 @@ static bool is_step_control(const struct option_spec *o) {
   return is_one_of(o, names);
 }
 
-/* Says how a start is made: a scene has been made already. */
+/* Whether an option describes the making of a start: a scene has been made
+   already. */
 static bool is_of_start(const struct option_spec *o) {
   static const char *const names[] = {"count",  "base", "drop",
                                       "jitter", "seed", NULL};
@@ -120,8 +121,8 @@ static double radius_of(const struct bed *b) {
                                               : least;
 }
 
-/* Parameters as they now stand, then what a file had and we do not know. How
-   the start of a scene was made is for its file to say. */
+/* The parameters as they now stand, then the keys of a file that we do not
+   know. The making of a scene's start is described by its file alone. */
 static void write_header(struct settings *s, const struct option_spec *options,
                          const struct bed *b, struct bed_header *h) {
   char text[256];

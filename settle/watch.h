@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a run looks at beside its results, so that a bed that went wrong does
-   not pass for a good one: beside what every run is watched for
-   (program/run_watch.h), spheres that go too deep into each other or through a
-   wall, and a tolerance that the cut at lmax does not allow. Not in the paper.
-   It reads the state of accepted steps and changes no bit of the trajectory.
-   README.md lists the warnings and the keys of the statistics. Tested in
-   tests/test_watch.sh. */
+/* The watch over a run of settle, so that a bed that went wrong does not pass
+   for a good one: beside the watch over every run (program/run_watch.h),
+   spheres that go too deep into each other or through a wall, and a tolerance
+   that the cut at lmax does not allow. Not in the paper. It reads the state of
+   accepted steps and changes no bit of the trajectory. README.md lists the
+   warnings and the keys of the statistics. Tested in tests/test_watch.sh. */
 #ifndef WATCH_H
 #define WATCH_H
 
@@ -17,7 +16,7 @@
 
 struct watch;
 
-/* What makes a bed a failed one: what, in words, and the title of a section of
+/* The reason why a bed is a failed one, in words, and the title of a section of
    docs/stability.md. */
 struct watch_finding {
   char what[120];
@@ -48,8 +47,8 @@ size_t watch_evaluations(const struct watch *w);
 /* The line of progress, after a step. */
 void watch_progress(struct watch *w);
 
-/* The end: what can be said only now, of a run that did not fail, and what goes
-   to --stats. */
+/* The end: the warnings that are possible only now, about a run that did not
+   fail, and the keys of --stats. */
 void watch_end(struct watch *w, bool failed);
 void watch_stats(const struct watch *w, FILE *out, double t_end,
                  int exit_status);

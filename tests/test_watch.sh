@@ -172,12 +172,12 @@ warned 1 "t=0: sphere 0 overlaps by 0.70 radii.*$(page Penetration)"
 
 # --- energy -------------------------------------------------------------------
 run settle "${elastic[@]}" --method rkc --step 2e-3 --time 1
-warned 1 "J came from nowhere.*$(page Energy)"
+warned 1 "J were gained without a source.*$(page Energy)"
 key energy_gain 'x > 1'
 run settle "${elastic[@]}" --method merson --step 4e-3 --time 1
 warned 1 "J are lost.*e = 1.*$(page Energy)"
 run bounce --method rkc --tol 1
-warned 1 "J came from nowhere.*$(page Energy)"
+warned 1 "J were gained without a source.*$(page Energy)"
 run bounce --method merson --step 1e-3
 warned 1 "J are lost.*$(page Energy)"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a state's contacts say in one pass over the list: energies, the deepest
+/* Quantities of a state from one pass over its contacts: energies, the deepest
    overlap and the spheres' places before the walls. Not in the paper. Safe in
    any thread. Tested in tests/test_watch.c. */
 #ifndef SURVEY_H

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What no bed is: centres outside of walls, spheres nearly in one place. settle
-   refuses such a start and calls such an end a failure, so that what it calls
-   good it takes as a start. Not in the paper. Safe in any thread. Tested in
-   tests/test_bed_check.c. */
+/* Checks that a bed is one: no centres outside of walls, no two spheres nearly
+   in one place. settle refuses another start and calls another end a failure,
+   so that it takes as a start every bed that it calls good. Not in the paper.
+   Safe in any thread. Tested in tests/test_bed_check.c. */
 #ifndef BED_CHECK_H
 #define BED_CHECK_H
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a program says of itself, from the table of its options. Each prints to
+/* The help of a program, its man page and its completion, from the table of its
+   options. Each prints to
    standard output and exits. Tested in tests/test_cli.sh and
    tests/test_install.sh. */
 #ifndef HELP_H
@@ -25,7 +26,7 @@ struct verbs {
   int (*otherwise)(int, char **); /* without a verb; or NULL */
 };
 
-/* The verbs that help is to name, of a program that has some. */
+/* The verbs that the help names, of a program that has some. */
 void help_verbs(const struct verbs *v);
 
 _Noreturn void help_print(const struct program *p);

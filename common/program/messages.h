@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What programs say on standard error, and how they end. */
+/* Messages of programs on standard error, and their exit. */
 #ifndef MESSAGES_H
 #define MESSAGES_H
 
@@ -12,8 +12,8 @@ enum exit_code {
   EXIT_LIMIT = 5
 };
 
-/* The program's name, and the verb of several that runs or NULL; both texts must
-   live on. */
+/* The program's name, and the verb of several that runs or NULL; both texts
+   must live on. */
 void message_name(const char *program, const char *verb);
 const char *program_name(void);
 const char *program_verb(void);

@@ -12,8 +12,8 @@
 #include "platform/system.h"
 #include "program/messages.h"
 
-/* Energy that may come from nowhere, as a share of what there is in motion and
-   contacts. */
+/* Energy that may be gained without a source, as a share of the energy in
+   motion and contacts. */
 static const double energy_share = 0.01;
 
 /* A fixed step beyond the limit for more than this share of the time makes
@@ -36,7 +36,7 @@ struct energy { /* that cannot grow */
   double first, last, lowest;
   double bottom; /* gravity's, lowest so far */
   double scale;  /* in motion and contacts and above the bottom, most */
-  double share;  /* from nowhere now, of that now */
+  double share;  /* without a source now, of that now */
   double gain;   /* largest (J) */
   bool told;
 };
@@ -166,9 +166,9 @@ void run_watch_end(struct run_watch *w, bool failed) {
     run_watch_say(
         w,
         "for %.0f %% of the time --step %g was beyond what %s allows (h times "
-        "spectral radius: median %.2g, limit %.2g): %s is another, "
-        "without looking so; --step %.1g or --method rkc (docs/stability.md, "
-        "\"Wrong beds\")",
+        "spectral radius: median %.2g, limit %.2g): %s is another one, "
+        "which it does not show; --step %.1g or --method rkc "
+        "(docs/stability.md, \"Wrong beds\")",
         100 * p->beyond_time / span, step, w->set.stiff, product, p->limit,
         w->set.result, 0.7 * step * p->limit / product);
   } else if (!(step > 0) && stiffness_sets_pace(p->steps, w->steps))
@@ -193,14 +193,14 @@ void run_watch_tell_energy(struct run_watch *w) {
     e->told = true;
     run_watch_say(
         w,
-        "t=%.6g: %.3g J came from nowhere, %.3g %% of %s energy: "
+        "t=%.6g: %.3g J were gained without a source, %.3g %% of %s energy: "
         "a smaller --tol or --step is needed (docs/stability.md, \"Energy\")",
         w->time, e->last - e->lowest, 100 * e->share, w->set.whose);
   } else if (w->set.nobody && loss > energy_share) {
     e->told = true;
     run_watch_say(w,
                   "t=%.6g: %.3g J are lost, %.3g %% of %s energy, where none "
-                  "can be (%s): a smaller --tol or --step is "
+                  "can be lost (%s): a smaller --tol or --step is "
                   "needed (docs/stability.md, \"Energy\")",
                   w->time, e->first - e->last, 100 * loss, w->set.whose,
                   w->set.nobody);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What every run is watched for, whatever moves in it, and said in the same
-   words: a step at its stability limit, energy from nowhere, numbers that are
-   none; and the statistics of its solver. Not in the paper. It looks at
-   accepted steps and changes no bit of the trajectory. README.md lists the
+/* The watch over every run, whatever moves in it, with the same words in all
+   programs: a step at its stability limit, energy without a source, numbers
+   that are none; and the statistics of the solver. Not in the paper. It looks
+   at accepted steps and changes no bit of the trajectory. README.md lists the
    warnings and the keys of the statistics. Tested in tests/test_watch.sh. */
 #ifndef RUN_WATCH_H
 #define RUN_WATCH_H
@@ -35,8 +35,8 @@ struct run_watch_options {
 int run_watch_alloc(struct run_watch **out, const struct run_watch_options *o);
 void run_watch_free(struct run_watch *w);
 
-/* Does the method have a limit of stability? Then it is to be told the fastest
-   mode of the problem before the first step and as it changes. */
+/* Whether the method has a limit of stability. Then the watch is to be told the
+   fastest mode of the problem before the first step and as it changes. */
 bool run_watch_wants_mode(const struct run_watch *w);
 void run_watch_mode(struct run_watch *w, struct stiffness_mode mode);
 
@@ -48,17 +48,17 @@ void run_watch_step(struct run_watch *w);
    start's. GSL_SUCCESS, GSL_ERANGE where it is not finite. */
 int run_watch_energy(struct run_watch *w, double gravity, double inner,
                      double rounding);
-/* Warns, once, of energy that came from nowhere or was lost. */
+/* Warns, once, of energy that was gained without a source, or was lost. */
 void run_watch_tell_energy(struct run_watch *w);
-/* The share of the energy that came from nowhere, as of the last call. */
+/* The share of the energy that has no source, as of the last call. */
 double run_watch_energy_share(const struct run_watch *w);
 
 /* A warning, counted. */
 void run_watch_say(struct run_watch *w, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* The end: no more progress; and what can be said only now, of a run that did
-   not fail. */
+/* The end: no more progress; and the warnings that are possible only now, about
+   a run that did not fail. */
 void run_watch_end(struct run_watch *w, bool failed);
 
 /* For --stats: the solver's keys, then those of the watch, then the program's

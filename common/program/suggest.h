@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a mistyped word may have meant. */
+/* The word that a mistyped one may have meant. */
 #ifndef SUGGEST_H
 #define SUGGEST_H
 
