@@ -171,7 +171,7 @@ run settle --scene "$T/half" --time 0.02
 warned 1 "t=0: sphere 0 overlaps by 0.70 radii.*$(page Penetration)"
 
 # --- energy -------------------------------------------------------------------
-run settle "${elastic[@]}" --method rkc --step 2e-3 --time 1
+run settle "${elastic[@]}" --method rkc --step 1e-3 --time 1
 warned 1 "J were gained without a source.*$(page Energy)"
 key energy_gain 'x > 1'
 run settle "${elastic[@]}" --method merson --step 4e-3 --time 1
