@@ -95,7 +95,7 @@ $(B)/tests/%: $(O)/tests/%.o $(LIBRARY)
 # What allocates is replaced by what can fail.
 $(B)/tests/test_memory: WRAPPED := $(foreach f,malloc calloc realloc \
 	gsl_odeiv2_step_alloc gsl_odeiv2_evolve_alloc \
-	gsl_odeiv2_control_scaled_new,-Wl,--wrap=$(f))
+	gsl_odeiv2_control_scaled_new gsl_rng_alloc gsl_rstat_quantile_alloc,-Wl,--wrap=$(f))
 
 check: all $(B)/precision $(B)/stability $(TEST_PROGRAMS) ## run the tests, JOBS=2 at a time (minutes)
 	@B=$(B) tests/run.sh $(TEST_SCRIPTS) $(TEST_PROGRAMS)

@@ -34,7 +34,8 @@ static int run(const struct precision_case *c, const void *reference,
   measure_stop(r);
   const double *y = integrate_state(m->integrator);
   closed_collision(c->law.f0, c->law.kappa, c->speed, tau, &gap, &velocity);
-  const double error[] = {fabs(y[2] - radius - gap), fabs(y[5] - velocity)};
+  const double error[] = {fabs(y[ROW_X + 2] - radius - gap),
+                          fabs(y[ROW_V + 2] - velocity)};
   measure_add(r, m->integrator, dynamics_counts(m->dynamics).evaluations, error,
               2);
   motion_free(m);

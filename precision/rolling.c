@@ -18,7 +18,8 @@ static double full_rate(const struct precision_case *c) {
 }
 
 static double slip_of(const double y[]) {
-  return hypot(y[3] - radius * y[7], y[4] + radius * y[6]);
+  return hypot(y[ROW_V] - radius * y[ROW_W + 1],
+               y[ROW_V + 1] + radius * y[ROW_W]);
 }
 
 /* The k-th run: slides with the given speed, at rest on the floor. */
@@ -58,7 +59,7 @@ static int run_velocity(const struct precision_case *c, const void *reference,
     measure_stop(r);
     const double *y = integrate_state(m->integrator);
     const double rolling = 5. / 7 * v0 + 2. / 7 * share * c->law.vmin;
-    const double spin[2] = {radius * y[7], -radius * y[6]};
+    const double spin[2] = {radius * y[ROW_W + 1], -radius * y[ROW_W]};
     double off[2], kept[2];
     for (int i = 0; i < 2; i++) {
       off[i] = y[3 + i] - rolling * direction[i];

@@ -63,7 +63,7 @@ static int eigenvalues(const struct line *l, const double y[], double value[]) {
         gsl_matrix_set(m, size - 1 - i, size - 2 - i, b);
     }
     if (l->closed) {
-      const double low = beside(l, y[0] - radius);
+      const double low = beside(l, y[ROW_X] - radius);
       const double high = beside(l, l->end - y[6 * (n - 1)] - radius);
       gsl_matrix_set(m, 1, 0, low);
       gsl_matrix_set(m, size - 1, 0, low);

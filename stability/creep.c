@@ -80,14 +80,14 @@ static int creep(const struct slope *a, double time, double travel,
   status = integrate_stop(m->integrator, time);
   while (status == GSL_SUCCESS && integrate_time(m->integrator) < time) {
     status = integrate_step(m->integrator);
-    const double now = integrate_state(m->integrator)[3];
+    const double now = integrate_state(m->integrator)[ROW_V];
     if (integrate_time(m->integrator) > 0.5 * time) {
       v->least = GSL_MIN(v->least, now);
       v->most = GSL_MAX(v->most, now);
     }
   }
   if (status == GSL_SUCCESS)
-    v->end = integrate_state(m->integrator)[3];
+    v->end = integrate_state(m->integrator)[ROW_V];
   v->evaluations = dynamics_counts(m->dynamics).evaluations;
   motion_free(m);
   return GSL_SUCCESS;

@@ -148,8 +148,7 @@ int verb_drift(int argc, char **argv) {
       POSITIVE("drop", &e.drop, "m", "height that the one sphere falls from"),
       {.name = "count", .type = OPTION_SIZE, .value = &e.count, .least = 1,
        .most = 1e6, .help = "spheres in the box"},
-      {.name = "seed", .type = OPTION_SIZE, .value = &e.seed,
-       .most = 4294967295.0, .help = "of the box"},
+      SEED_OPTION(&e.seed, "of the box"),
       POSITIVE("edge", &e.edge, "m", "of the box"),
       NUMBER("units", &units, 1, 1e9, "bounces, or seconds of the box",
              "how long"),
@@ -197,7 +196,7 @@ int verb_drift(int argc, char **argv) {
       largest = fabs(error);
     /* the one sphere is looked at where it turns, far from the floor */
     const double last_rise = rise;
-    rise = integrate_state(m->integrator)[5];
+    rise = integrate_state(m->integrator)[ROW_V + 2];
     const bool turned = e.box || (last_rise > 0 && rise <= 0);
     if ((integrate_time(m->integrator) >= (next - 0.1) * e.unit && turned) ||
         strcmp(word, "ok")) {

@@ -104,8 +104,8 @@ static void pressed_free(struct pressed *p) {
 /* Size of the perturbation (m/s). */
 static double mode_size(const struct pressed *p, const double y[]) {
   if (p->axis == REAL)
-    return fabs(y[3] - radius * y[7] - p->slip);
-  return hypot(p->rate * (y[2] - p->rest), y[5]);
+    return fabs(y[ROW_V] - radius * y[ROW_W + 1] - p->slip);
+  return hypot(p->rate * (y[ROW_X + 2] - p->rest), y[ROW_V + 2]);
 }
 
 /* Whether the method with h = z/rate lets the perturbation grow or fails. */

@@ -73,8 +73,9 @@ static int shoot(const struct shot *s, const struct integrate_options *o,
        k++)
     lost = integrate_step(m->integrator) != GSL_SUCCESS;
   const double *y = integrate_state(m->integrator);
-  const double height = wall ? y[2] : y[2] - y[8];
-  const double speed = wall ? y[5] : y[5] - y[11];
+  const double *other = y + ROW_PLAIN; /* the second sphere's row */
+  const double height = y[ROW_X + 2] - (wall ? 0 : other[ROW_X + 2]);
+  const double speed = y[ROW_V + 2] - (wall ? 0 : other[ROW_V + 2]);
   if (lost || integrate_time(m->integrator) < end)
     *outcome = FAILED;
   else if (speed < 0)

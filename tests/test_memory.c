@@ -6,8 +6,14 @@
 #include <stdlib.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
+#include <gsl/gsl_rng.h>
+#include <gsl/gsl_rstat.h>
 #include "check.h"
 #include "dynamics/motion.h"
+#include "model/bed_check.h"
+#include "program/run_watch.h"
+#include "steppers/chebyshev.h"
+#include "steppers/merson.h"
 
 /* --- allocators that fail --------------------------------------------------*/
 
@@ -34,6 +40,9 @@ WRAP(gsl_odeiv2_control *, gsl_odeiv2_control_scaled_new,
      (double eps_abs, double eps_rel, double a_y, double a_dydt,
       const double scale[], size_t dim),
      (eps_abs, eps_rel, a_y, a_dydt, scale, dim))
+
+WRAP(gsl_rng *, gsl_rng_alloc, (const gsl_rng_type *type), (type))
+WRAP(gsl_rstat_quantile_workspace *, gsl_rstat_quantile_alloc, (double p), (p))
 
 /* --- what is constructed ---------------------------------------------------*/
 
@@ -160,6 +169,62 @@ static int first_evaluation(const struct sample *s) {
   return status;
 }
 
+static int make_chebyshev(const struct sample *s) {
+  struct chebyshev *c = NULL;
+  (void)s;
+  int status = chebyshev_alloc(&c);
+  CHECK((status == GSL_SUCCESS) == (c != NULL));
+  for (size_t k = 2; k <= 9 && status == GSL_SUCCESS; k++)
+    if (!chebyshev_scheme(c, k))
+      status = GSL_ENOMEM;
+  chebyshev_free(c);
+  return status;
+}
+
+static int make_stiffness(const struct sample *s) {
+  struct stiffness *stiff = NULL;
+  (void)s;
+  const int status = stiffness_alloc(&stiff, 10);
+  CHECK((status == GSL_SUCCESS) == (stiff != NULL));
+  stiffness_free(stiff);
+  return status;
+}
+
+static int make_limits(const struct sample *s) {
+  struct stiffness_limits l = {{0}};
+  (void)s;
+  const int status = stiffness_limits(merson, &l);
+  CHECK((status == GSL_SUCCESS) == (l.at[0] > 0));
+  return status;
+}
+
+/* With a method that has limits, which take a while to measure: the medians. */
+static int make_run_watch(const struct sample *s) {
+  const size_t stop = failing;
+  failing = 0;
+  struct motion *m = NULL;
+  const struct integrate_options *o = options("verlet", NULL);
+  if (motion_alloc(&m, &s->scene, &s->bed, o,
+                   &(struct dynamics_options){.threads = 1}, 0) != GSL_SUCCESS)
+    abort();
+  struct run_watch *w = NULL;
+  calls = 0;
+  failing = stop;
+  const int status = run_watch_alloc(
+      &w,
+      &(struct run_watch_options){.integrate = o, .integrator = m->integrator});
+  failing = 0;
+  CHECK((status == GSL_SUCCESS) == (w != NULL));
+  run_watch_free(w);
+  motion_free(m);
+  return status;
+}
+
+static int make_crowd(const struct sample *s) {
+  struct bed_crowd c;
+  return bed_find_crowd(&s->bed, &c);
+}
+
 /* Fails the first, second, ... allocation until there are no more. */
 static void check_each(const char *what, int (*make)(const struct sample *),
                        const struct sample *s, size_t least) {
@@ -197,6 +262,11 @@ int main(void) {
   check_each("over the floor", make_over_floor, &few, 22);
   check_each("first evaluation", first_evaluation, &few, 4);
   check_each("first evaluation in order", first_evaluation, &many, 6);
+  check_each("chebyshev", make_chebyshev, &few, 8);
+  check_each("stiffness", make_stiffness, &few, 2);
+  check_each("limits", make_limits, &few, STIFFNESS_RAYS);
+  check_each("watch", make_run_watch, &few, 3);
+  check_each("crowd", make_crowd, &few, 2);
   sample_free(&few);
   sample_free(&many);
   return check_done();

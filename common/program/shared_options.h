@@ -4,6 +4,7 @@
 #define SHARED_OPTIONS_H
 
 #include <float.h>
+#include <stdint.h>
 #include "program/command_line.h"
 
 /* clang-format off */
@@ -34,6 +35,11 @@
   NUMBER("step", &(o).step, 0, OPTION_MANY, "s; 0: adaptive", "fixed step"),   \
   NUMBER("travel", &(travel), 0, OPTION_MANY, "in 1/kappa; 0: no limit",       \
          "furthest a sphere may go in a step")
+
+/* The seed of a random start, a size_t that GSL's generators take. */
+#define SEED_OPTION(value_, help_)                                             \
+  {.name = "seed", .type = OPTION_SIZE, .value = value_, .most = UINT32_MAX,   \
+   .help = help_, .parameter = true}
 
 /* The solver's statistics, and silence. */
 #define STATS_OPTION(value_)                                                   \

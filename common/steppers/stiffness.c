@@ -77,16 +77,16 @@ double stiffness_limit_at(const struct stiffness_limits *l, double angle) {
 
 struct stiffness {
   size_t dim;
+  gsl_rng *rng;
   double *before, *now; /* directions of unit length, now along J before */
   double *trial, *next;
   double work[];
 };
 
 static void scatter(struct stiffness *s) {
-  gsl_rng *rng = gsl_rng_alloc(gsl_rng_taus2); /* its own default seed */
+  gsl_rng_set(s->rng, 0); /* its own seed */
   for (size_t i = 0; i < s->dim; i++)
-    s->now[i] = rng ? 2 * gsl_rng_uniform_pos(rng) - 1 : i % 2 ? 1 : -1;
-  gsl_rng_free(rng);
+    s->now[i] = 2 * gsl_rng_uniform_pos(s->rng) - 1;
   cblas_dscal((int)s->dim, 1 / cblas_dnrm2((int)s->dim, s->now, 1), s->now, 1);
 }
 
@@ -99,12 +99,20 @@ int stiffness_alloc(struct stiffness **out, size_t dim) {
   s->now = s->before + dim;
   s->trial = s->now + dim;
   s->next = s->trial + dim;
+  s->rng = gsl_rng_alloc(gsl_rng_taus2);
+  if (!s->rng) {
+    free(s);
+    return GSL_ENOMEM;
+  }
   scatter(s);
   *out = s;
   return GSL_SUCCESS;
 }
 
 void stiffness_free(struct stiffness *s) {
+  if (!s)
+    return;
+  gsl_rng_free(s->rng);
   free(s);
 }
 
