@@ -7,4 +7,23 @@ readme: ## put the figures' captions into README.md and docs/
 	    || exit; \
 	done; rm $(B)/page
 
-.PHONY: readme
+# The figures that the pages show: docs/NAME.png, made as build/figures/NAME.png
+# or by another name there. Those that have been made are copied.
+SHOWN := bench fig4.3 gr precision-contrast precision-horizon \
+  precision-settling stability-creep stability-cut stability-drift \
+  stability-map stability-regions stability-tunnel stability-vibration \
+  stability-wrong-bed walls
+SHOWN_AS := \
+  precision-bounce=precision-bounce-150-inelastic-time-evaluations \
+  precision-rolling=precision-rolling-steps-velocity-step \
+  precision-toda=precision-toda-6-long-eigenvalue-evaluations \
+  precision-trajectory=precision-trajectory-200-position-evaluations \
+  precision-trajectory-8=precision-trajectory-8-position-evaluations
+docs-figures: ## copy the figures that the pages show, as far as they are made, to docs/
+	@for name in $(SHOWN) $(SHOWN_AS); do \
+	  if [ -e $(F)/$${name#*=}.png ]; then \
+	    cp -v $(F)/$${name#*=}.png docs/$${name%%=*}.png; \
+	  fi; \
+	done
+
+.PHONY: readme docs-figures

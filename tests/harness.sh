@@ -8,16 +8,24 @@ B=${B:-build}
 T=$(mktemp -d) || exit 1
 trap 'rm -rf "$T"' EXIT
 passed=0 failed=0
-sites=() # by number: the lines of the script that checked something
+declare -A sites=() # lines of the script, or of its parts, that checked something
 said= # what a check is of, if that is not in its name
 
+site() { # of the script that called, however many functions there are between
+  local i=1
+  while [[ ${FUNCNAME[i]} != main && ${FUNCNAME[i]} != source ]]; do
+    i=$((i + 1))
+  done
+  sites[${BASH_SOURCE[i]}:${BASH_LINENO[i - 1]}]=1
+}
+
 pass() {
-  sites[${BASH_LINENO[${#BASH_LINENO[@]} - 2]}]=1
+  site
   passed=$((passed + 1))
 }
 
 fail() { # NAME; what the last program said, if it is in $T/err, comes after it
-  sites[${BASH_LINENO[${#BASH_LINENO[@]} - 2]}]=1
+  site
   failed=$((failed + 1))
   echo "failed: ${said:+$said: }$1" >&2
   [[ ! -s $T/err ]] || head -n 5 "$T/err" >&2

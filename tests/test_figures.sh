@@ -17,7 +17,8 @@ declare -A makes=(
   [fig-gr]='gr.svg' [structure]='structure.md:2'
   [table-radius]='table-radius.md:8' [fig-walls]='walls.svg walls.md:10'
   [precision]='precision-bounce-150-time-evaluations.svg
-    precision-rolling-steps-velocity-step.svg precision-work.md:60
+    precision-rolling-steps-velocity-step.svg precision-contrast.svg
+    precision-work.md:60
     precision-orders.md:14'
   [settling]='precision-settling.svg precision-settling.md:16'
   [seeds]='precision-seeds.md:3'
@@ -37,7 +38,7 @@ declare -A makes=(
   [bench-peers]='peers.md:2'
 )
 # Targets that make no figure; bench-clean comes last.
-others=' all check fuzz deps demo install uninstall clean help readme bench-clean'
+others=' all check fuzz deps demo install uninstall clean help readme docs-figures bench-clean'
 others+=' sanitize tidy check-long '
 
 targets=()

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The effect of walls on beds: plots/beds/walls.sh profile|size BED...
 # BED is named .../BASE-SEED.bed, BASE the side of its box in m, or
-# .../rotation-SEED.bed, the paper's bed of 200 spheres. Each is taken with the
+# .../rotation-SEED.bed, the paper's bed of 200 spheres, of which the cube above
+# the floor is measured. Each is taken with the
 # radius of its dynamics and with that of contact-mean; means over the seeds.
 #   profile: base, keep, wall (distance from the side walls), union, at 0.4 to
 #     2 m over the floor; one block per base and radius
@@ -25,9 +26,11 @@ for bed in "$@"; do
     d=$(awk -F = '/^# radius=/ {print 2 * $2; exit}' "$tmp/bed")
     # base, keep, region or row, length in diameters, union
     if [[ $base == rotation ]]; then
-      [[ $what == profile ]] || "$B/analyze" "$tmp/bed" |
-        awk -v OFS='\t' -v keep=$keep -v d="$d" \
-          'NR > 1 {print 5, keep, "paper", 1 / d, $3}'
+      side=$(awk -F '[=,]' '/^# base=/ {print $2; exit}' "$tmp/bed")
+      [[ $what == profile ]] ||
+        "$B/analyze" --box "0,$side,0,$side,0,$side" "$tmp/bed" |
+        awk -v OFS='\t' -v keep=$keep -v b="$side" -v d="$d" \
+          'NR > 1 {print b / 0.2, keep, "paper", b / d, $3}'
     elif [[ $what == profile ]]; then
       "$B/analyze" profile --box "0,$base,0,$base,0.4,2" --points 200 \
         --from-wall "$(awk -v b="$base" 'BEGIN {print b < 2 ? b / 2 : 1}')" \

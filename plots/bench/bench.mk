@@ -3,8 +3,9 @@
 # stands beside the fraction that it gave. `make bench-clean` forgets the runs.
 BENCH := $(D)/bench
 
-# Methods by name: what settle is told, and the seeds that are run. The paper's
-# own way, every pair twice, takes minutes per seed for the full model.
+# Methods by name: what settle is told. All have the same seeds, so that beds
+# are compared in pairs; but the paper's own way, every pair twice, which takes
+# minutes for the full model, has the first alone.
 BENCH_METHODS := allpairs merson dopri5 rkf45 rk8pd rkc verlet
 BENCH_allpairs := --pairs all --method merson
 BENCH_merson := --method merson
@@ -13,13 +14,9 @@ BENCH_rkf45 := --method rkf45
 BENCH_rk8pd := --method rk8pd
 BENCH_rkc := --method rkc
 BENCH_verlet := --method verlet --step 2.5e-5
-BENCH_SEEDS_allpairs := 1
-BENCH_SEEDS_merson := 1 2 3 4 5 6 7 8 9 10
-BENCH_SEEDS_dopri5 := 1 2 3
-BENCH_SEEDS_rkf45 := 1 2 3
-BENCH_SEEDS_rk8pd := 1 2 3
-BENCH_SEEDS_rkc := 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20
-BENCH_SEEDS_verlet := 1 2 3
+BENCH_SEEDS := $(if $(QUICK),1 2,1 2 3)
+bench_seeds = $(if $(filter allpairs,$(1)),$(firstword $(BENCH_SEEDS)),\
+  $(BENCH_SEEDS))
 
 # $(call bench_run,VARIANT,METHOD,SEED)
 define bench_run
@@ -29,15 +26,15 @@ $(BENCH)/$(1)-$(2)-$(3).tsv: | $(B)/settle $(B)/analyze
 	  --stats $$(@:.tsv=.stats) | $(B)/analyze $(BOX) > $$@
 endef
 $(foreach v,$(VARIANTS),$(foreach m,$(BENCH_METHODS),\
-  $(foreach s,$(BENCH_SEEDS_$(m)),$(eval $(call bench_run,$(v),$(m),$(s))))))
+  $(foreach s,$(call bench_seeds,$(m)),$(eval $(call bench_run,$(v),$(m),$(s))))))
 
 BENCH_RUNS := $(foreach v,$(VARIANTS),$(foreach m,$(BENCH_METHODS),\
-  $(BENCH_SEEDS_$(m):%=$(BENCH)/$(v)-$(m)-%.tsv)))
+  $(patsubst %,$(BENCH)/$(v)-$(m)-%.tsv,$(call bench_seeds,$(m)))))
 
 bench: $(F)/bench.md $(F)/bench.svg $(F)/scaling.md $(F)/scaling.svg ## CPU time beside accuracy, by method; cost per sphere up to 100,000
 	@cat $(F)/bench.md $(F)/scaling.md
 $(BENCH)/bench.tsv: plots/bench/methods.sh plots/bench/bench.mk $(BENCH_RUNS)
-	$< $(BENCH) > $@
+	$< $(BENCH) $(VARIANTS) > $@
 $(F)/bench.md: $(BENCH)/bench.tsv
 $(F)/bench.svg: plots/bench/bench.gp plots/style.gp $(BENCH)/bench.tsv
 	$(draw)

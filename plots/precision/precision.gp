@@ -44,6 +44,8 @@ within(v, low, high) = v > high ? high : v > low ? v : low
 xwithin(i) = within(column(xname), xlow, xhigh)
 ywithin(i) = within(column(yname), ylow, yhigh)
 
+# so that gnuplot says nothing of curves without points
+set datafile missing "none"
 array name[blocks]
 array dash[blocks]
 done = ""               # the blocks that have good runs

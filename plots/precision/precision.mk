@@ -192,8 +192,14 @@ $(F)/precision-orders.md: plots/precision/orders.awk \
 	@mkdir -p $(@D)
 	awk -f $(filter %.awk %.tsv,$^) > $@
 
+# The laws side by side
+$(F)/precision-contrast.svg: plots/precision/contrast.gp plots/style.gp \
+  $(LAWS:%=$(PRECISION_DATA)/%-steps.tsv)
+	$(draw)
+
 precision: precision-scenes ## charts of accuracy against work
 precision-scenes: $(F)/precision-work.md $(F)/precision-orders.md \
+  $(F)/precision-contrast.svg \
   $(if $(QUICK),$(PRECISION_QUICK_FIGURES),\
   $(call precision_charts,$(PRECISION_SETS)))
 .PHONY: precision precision-scenes

@@ -1,88 +1,97 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Error of the fraction of settled beds against CPU time, by method and
-# tolerance: of the mean over seeds, of single beds with friction, and of the
-# mean without. A whisker that goes through the floor of its panel is of an error
-# that the seeds cannot tell from zero; runs that failed are crosses at the top.
-# The default of settle has a ring, the spread of seeds is a dashed line.
+# Error of the fraction of settled beds: of single beds with friction and
+# rotation, of their mean, and of the mean without friction. Left: rkc and Verlet
+# against CPU time, each marker with its tolerance or step; right: the embedded
+# methods against their tolerance. An arrow is the upper limit of an error that
+# the seeds cannot tell from zero; runs that failed are crosses at the top. The
+# default of settle has a ring, the spread of seeds is a dashed line.
 #   gnuplot -c plots/precision/settling.gp IN OUT
-# IN: blocks by settling.awk.
+# IN: rows by panels.awk.
 set loadpath system("dirname '".ARG0."'")."/.."
-key_rows = 4
-height = 1320
-columns = "variant method tol step cpu_seconds spread difference interval rms status"
+height = 1340
+columns = "panel side method setting seeds x y low high kind default"
 call "style.gp" "precision/settling.gp IN OUT" ARG2 ARG1
 
-good(i) = strcol("status") eq "ok"
-bad(i) = strcol("status") eq "failed"
-default(i) = good(0) && strcol("method") eq "rkc" && strcol("tol") eq "5e-4"
-# the blocks of a panel that have such rows
-chosen(list, panel) = system(sprintf("awk -F'\t' '%s' '%s'", \
-  "/^$/ { next } $1 == \"variant\" { b++; next } $1 == \"".panel."\" && ". \
-  list." && !seen[b]++ { printf \" %d\", b }", ARG1))
-# an empty loop, too, asks for the values of its first turn
-of(list, i) = i > words(list) ? 1 : int(word(list, i))
-stats ARG1 using (blocks = column(-2) + 1) nooutput
-array method[blocks]
-do for [b=1:blocks] {
-  stats ARG1 index b-1 using (method[b] = strcol("method"), 0) nooutput
-}
-
 bottom = 1e-6
-top = 0.1
-amount(p) = p == 2 ? column("rms") : abs(column("difference"))
-shown(p) = amount(p) > 1.5*bottom ? amount(p) : 1.5*bottom
-interval(p) = p == 2 || strcol("interval") eq "nan" ? 0 : column("interval")
-low(p) = amount(p) - interval(p) > bottom ? amount(p) - interval(p) : bottom
-high(p) = amount(p) + interval(p)
-cpu(test) = test ? column("cpu_seconds") : NaN
+top = 0.3
+is(m, k) = strcol("panel") eq panel && strcol("side") eq side && \
+  strcol("method") eq m && strcol("kind") eq k
+# embedded methods beside each other
+x(m) = column("x")*(side eq "left" ? 1 : m eq "merson" ? 0.8 : \
+  m eq "rkf45" ? 1.25 : 1)
+above(y) = y > 1.3*bottom ? y : 1.3*bottom
 
+stats ARG1 using (strcol("side") eq "left" ? column("x") : NaN) nooutput
+cpu_low = 0.5*STATS_min
+cpu_high = 4*STATS_max
+# so that gnuplot says nothing of curves without points
+set datafile missing "none"
 set logscale xy
-set format y "10^{%T}"
-set xrange [0.04:50]
 set yrange [bottom:top]
-set lmargin at screen 0.18
-variants = "rotation rotation basic"
-headings = "'friction and rotation' 'friction and rotation, single beds' ". \
-  "'no friction'"
-ylabels = "'error of the mean union' 'rms error of the union' ". \
-  "'error of the mean union'"
-panel = 0.268
+set ytics 100
+set mytics 1
+set xtics 10
+panels = "single mean plain"
+headings = "'single beds, friction and rotation' ". \
+  "'mean, friction and rotation' 'mean, no friction'"
+high = 0.25
+unset key
 set multiplot
 do for [p=1:3] {
-  variant = word(variants, p)
-  set tmargin at screen 0.985 - (p - 1)*(panel + 0.018)
-  set bmargin at screen 0.985 - (p - 1)*(panel + 0.018) - panel
-  set format x p == 3 ? "%h" : ""
-  set xlabel p == 3 ? "CPU time for ".header(ARG1, "run")." (s)" : ""
-  set ylabel word(ylabels, p)
-  set label 1 word(headings, p) at graph 0.98,0.93 right
-  stats ARG1 using (strcol("variant") eq variant && strcol("status") eq \
-    "reference" ? column("spread") : NaN) nooutput
-  spread = STATS_max
+  panel = word(panels, p)
+  set tmargin at screen 0.985 - (p - 1)*(high + 0.02)
+  set bmargin at screen 0.985 - (p - 1)*(high + 0.02) - high
+  spread = real(header(ARG1, "spread_".panel))
   set arrow 1 from graph 0,first spread to graph 1,first spread nohead dt 2 \
     lw 1.5*thin lc rgb grey
-  ok = chosen("$NF == \"ok\"", variant)
-  failed = chosen("$NF == \"failed\"", variant)
-  ring = chosen("$NF == \"ok\" && $2 == \"rkc\" && $3 == \"5e-4\"", variant)
-  plot for [i=1:words(ok)] ARG1 index of(ok, i)-1 using (cpu(good(0))): \
-      (shown(p)):(low(p)):(high(p)) with yerrorbars lw thin pt 0 \
-      lc rgb method_colour(method[of(ok, i)]) notitle, \
-    for [i=1:words(ok)] ARG1 index of(ok, i)-1 using (cpu(good(0))): \
-      (shown(p)) with linespoints lw line \
-      pt method_point(method[of(ok, i)]) ps symbol \
-      lc rgb method_colour(method[of(ok, i)]) notitle, \
-    for [i=1:words(failed)] ARG1 index of(failed, i)-1 using \
-      (words(failed) ? cpu(bad(0)) : 1):(words(failed) ? top : 9*top) with points pt 2 ps 1.6*symbol lw line \
-      lc rgb method_colour(method[of(failed, i)]) notitle, \
-    for [i=1:words(ring)] ARG1 index of(ring, i)-1 using (cpu(default(0))): \
-      (shown(p)) with points pt 6 ps 2.6*symbol lw line lc rgb black notitle, \
-    for [m in p == 1 ? "merson dopri5 rkf45 rkc verlet" : ""] keyentry \
-      with linespoints lw line pt method_point(m) ps symbol \
-      lc rgb method_colour(m) title method_title(m), \
-    for [m in p == 1 ? "default" : ""] keyentry with points pt 6 \
-      ps 2.6*symbol lw line lc rgb black title "settle's default", \
-    for [m in p == 1 ? "spread" : ""] keyentry with lines dt 2 lw 1.5*thin \
-      lc rgb grey title "spread of seeds"
-  unset key
+  do for [side in "left right"] {
+    left = side eq "left"
+    set lmargin at screen left ? 0.16 : 0.69
+    set rmargin at screen left ? 0.67 : 0.965
+    set xrange [left ? cpu_low : 0.03:left ? cpu_high : 40]
+    set format x p < 3 ? "" : left ? "%h" : "%h"
+    set xlabel p < 3 ? "" : left ? "CPU time for ".header(ARG1, "run")." (s)" \
+      : "tolerance {/:Italic δ} (m/s^2)"
+    set format y left ? "10^{%T}" : ""
+    set ylabel !left ? "" : p == 1 ? "rms error of union" : "error of mean union"
+    label = left ? word(headings, p) : header(ARG1, "cost_".panel)
+    place = left ? 0.07 : 0.93
+    set label 1 label at graph 0.03,place left
+    methods = left ? "rkc verlet" : "merson dopri5 rkf45"
+    if (p == 3 && !left) {
+      set key at screen 0.5,0.005 center bottom vertical maxrows 4 width -1
+    }
+    plot for [m in methods] ARG1 using (is(m, "limit") ? x(m) : NaN):"y":(0): \
+        (-0.7*column("y")) with vectors filled head lw 1.5*thin \
+        lc rgb method_colour(m) notitle, \
+      for [m in methods] ARG1 using (is(m, "point") ? x(m) : NaN): \
+        (above(column("y"))):(above(column("low"))):(above(column("high"))) \
+        with yerrorbars lw thin pt 0 lc rgb method_colour(m) notitle, \
+      for [m in methods] ARG1 using (is(m, "point") ? x(m) : NaN): \
+        (above(column("y"))) with linespoints lw line pt method_point(m) \
+        ps symbol lc rgb method_colour(m) notitle, \
+      for [m in methods] ARG1 using (is(m, "failed") ? x(m) : NaN):(top/2) \
+        with points pt 2 ps 1.6*symbol lw line lc rgb method_colour(m) \
+        notitle, \
+      for [m in left && p == 1 ? methods : ""] ARG1 using (is(m, "point") ? \
+        x(m) : NaN):(above(column("y"))):(strcol("setting")) with labels left \
+        offset 0.8,0.7 font ",16" tc rgb method_colour(m) notitle, \
+      for [m in left && p == 3 ? methods : ""] ARG1 using (is(m, "point") || \
+        is(m, "limit") ? x(m) : NaN):(above(column("high"))): \
+        (strcol("setting")) with labels left rotate by 90 offset 0,0.4 \
+        font ",16" tc rgb method_colour(m) notitle, \
+      for [m in left ? "rkc" : ""] ARG1 using (column("default") == 1 && \
+        (is(m, "point") || is(m, "limit")) ? x(m) : NaN): \
+        (above(column("y"))) with points pt 6 ps 2.6*symbol lw line \
+        lc rgb black notitle, \
+      for [m in "rkc verlet merson dopri5 rkf45"] keyentry with linespoints \
+        lw line pt method_point(m) ps symbol lc rgb method_colour(m) \
+        title method_title(m).", ".header(ARG1, "seeds_".m)." seeds", \
+      keyentry with points pt 6 ps 2.6*symbol lw line lc rgb black \
+        title "settle's default", \
+      keyentry with vectors filled head lw 1.5*thin lc rgb black \
+        title "upper limit", \
+      keyentry with lines dt 2 lw 1.5*thin lc rgb grey title "spread of seeds"
+  }
 }
 unset multiplot

@@ -37,8 +37,10 @@ settling: $(F)/precision-settling.svg $(F)/precision-settling.md ## error of a b
 $(BEDS)/settling.tsv: plots/precision/settling.awk plots/precision/settling.mk \
   $(SETTLING_FULL) $(SETTLING_PLAIN)
 	awk -f $< $(SETTLING_FULL) $(SETTLING_PLAIN) > $@
+$(BEDS)/panels.tsv: plots/precision/panels.awk $(BEDS)/settling.tsv
+	awk -f $^ > $@
 $(F)/precision-settling.svg: plots/precision/settling.gp plots/style.gp \
-  $(BEDS)/settling.tsv
+  $(BEDS)/panels.tsv
 	$(draw)
 $(F)/precision-settling.md: $(BEDS)/settling.tsv
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Error of the energy over time, one curve a method at equal cost. Upper panel:
+# Relative error of the energy over time, one curve a method at equal cost. Upper panel:
 # a bouncing sphere at its apexes; lower: a closed box, the largest error of
 # each stretch.
 #   gnuplot -c plots/stability/drift.gp BOUNCE BOX OUT
@@ -34,7 +34,7 @@ do for [p=1:2] {
   set ytics tics(low, high)
   set mytics tics(low, high) == 10 ? 10 : 1
   set xlabel p == 1 ? "bounces" : "time in the box (s)"
-  set ylabel p == 1 ? "energy error at the apex" : "largest energy error"
+  set ylabel p == 1 ? "relative energy error, apex" : "largest relative error"
   if (p == 2) {
     set key at screen 0.5,0.01 center bottom vertical maxrows key_rows
   }

@@ -4,8 +4,8 @@
 #   gnuplot -c plots/stability/map.gp IN OUT
 # IN: rows by map.sh.
 set loadpath system("dirname '".ARG0."'")."/.."
-key_rows = 4
-height = 1180
+key_rows = 3
+height = 1240
 columns = "panel setting kappa outcome"
 call "style.gp" "stability/map.gp IN OUT" ARG2 ARG1
 
@@ -28,12 +28,17 @@ values(name, panel, order) = system(sprintf("awk -F'\\t' 'NR == 1 { for ". \
   "LC_ALL=C sort -g%s | tr '\\n' ' '", panel, name, ARG1, order))
 place(list, s) = strstrt(" ".list, " ".s." ") == 0 ? NaN : \
   words(list[:strstrt(" ".list, " ".s." ") - 1]) + 1
-all = values("panel", "", "")
 is(o) = strcol("panel") eq name && strcol("outcome") eq word(outcomes, o) ? \
   place(settings, strcol("setting")) : NaN
 seen(o) = strstrt(" ".values("outcome", name, "")." ", \
   " ".word(outcomes, o)." ") > 0
 kappas = values("kappa", "", "")
+# the legend has what occurs in any panel
+occur = ""
+do for [o=1:words(outcomes)] {
+  if (strstrt(" ".values("outcome", "", "")." ", \
+    " ".word(outcomes, o)." ") > 0) { occur = occur.sprintf(" %d", o) }
+}
 
 set border linewidth thin
 unset grid
@@ -41,7 +46,7 @@ unset xtics
 unset ytics
 set yrange [0.5:words(kappas) + 0.5]
 across = 0.262
-high = 0.2
+high = 0.185
 set multiplot
 do for [p=1:9] {
   name = word(panels, p)
@@ -49,7 +54,7 @@ do for [p=1:9] {
   i = (p - 1)%3
   j = (p - 1)/3
   left = 0.16 + i*(across + 0.014)
-  upper = 0.955 - j*(high + 0.088)
+  upper = 0.955 - j*(high + 0.105)
   set lmargin at screen left
   set rmargin at screen left + across
   set tmargin at screen upper
@@ -58,12 +63,13 @@ do for [p=1:9] {
   set title word(headings, p) offset 0,-0.7
   unset label
   do for [k=1:words(settings)] {
-    set label word(settings, k) at k,graph -0.06 center font ",13"
+    set label word(settings, k) at k,graph -0.03 right rotate by 50 \
+      font ",16"
   }
-  set label below(p) at graph 0.5,-0.16 center
-  if (i == 0) {
+  set label below(p) at graph 0.5,-0.33 center
+  if (i == 1) {           # the panel that every row has
     do for [k=1:words(kappas)] {
-      set label word(kappas, k) at graph -0.03,first k right
+      set label word(kappas, k) at screen 0.15,first k right
     }
     set label "{/:Italic κ} (1/m), ".(j < 2 ? "no friction" : "full model") \
       at screen 0.03,screen upper - high/2 center rotate by 90
@@ -80,9 +86,9 @@ do for [p=1:9] {
       for [o in there] ARG1 using (is(int(o))): \
         (place(kappas, strcol("kappa"))):(word(letters, int(o))) with labels \
         notitle, \
-      for [o=1:(p == 1 ? 7 : 0)] keyentry with boxes \
-        fillstyle solid 1 noborder linecolor rgb word(colours, o) \
-        title word(titles, o)
+      for [o in occur] keyentry with boxes \
+        fillstyle solid 1 noborder linecolor rgb word(colours, int(o)) \
+        title word(titles, int(o))
   }
   unset key
 }

@@ -20,8 +20,9 @@ $(VIBRATION)/$(1).tsv: | $(B)/settle
 	  awk -v run=$(1) -f plots/stability/kinetic.awk > $$@
 endef
 $(foreach r,$(VIBRATION_RUNS),$(eval $(call vibration_run,$(r))))
-$(VIBRATION).tsv: $(VIBRATION_RUNS:%=$(VIBRATION)/%.tsv)
-	awk 'FNR == 1 && NR > 1 { print "\n" } 1' $^ > $@
+$(VIBRATION).tsv: plots/stability/envelope.awk \
+  $(VIBRATION_RUNS:%=$(VIBRATION)/%.tsv)
+	awk -f $^ > $@
 stability-vibration: $(F)/stability-vibration.svg ## kinetic energy over time by kappa: does 500 vibrate?
 $(F)/stability-vibration.svg: plots/stability/vibration.gp plots/style.gp \
   $(VIBRATION).tsv
