@@ -24,7 +24,7 @@ PREFIX ?= /usr/local
 all: $(B)/bounce $(B)/settle $(B)/analyze ## build the programs
 
 # What the compiler, its target and the libraries offer.
-ifneq ($(filter-out clean help deps uninstall,$(or $(MAKECMDGOALS),all)),)
+ifneq ($(filter-out clean help deps deps-developer uninstall sanitize tidy,$(or $(MAKECMDGOALS),all)),)
 $(shell CC='$(CC)' CPPFLAGS='$(CPPFLAGS)' CFLAGS='$(CFLAGS)' \
   LDFLAGS='$(LDFLAGS)' common/platform/probe.sh $(B)/config.mk)
 include $(B)/config.mk
@@ -97,8 +97,24 @@ $(B)/tests/test_memory: WRAPPED := $(foreach f,malloc calloc realloc \
 	gsl_odeiv2_step_alloc gsl_odeiv2_evolve_alloc \
 	gsl_odeiv2_control_scaled_new gsl_rng_alloc gsl_rstat_quantile_alloc,-Wl,--wrap=$(f))
 
+# Those that run studies and whole beds take most of the time.
+LONG_SCRIPTS := $(wildcard tests/test_{figures,settling}.sh)
 check: all $(B)/precision $(B)/stability $(TEST_PROGRAMS) ## run the tests, JOBS=2 at a time (minutes)
 	@B=$(B) tests/run.sh $(TEST_SCRIPTS) $(TEST_PROGRAMS)
+
+check-quick: all $(B)/precision $(B)/stability $(TEST_PROGRAMS) ## those without studies and whole beds
+	@B=$(B) tests/run.sh $(filter-out $(LONG_SCRIPTS),$(TEST_SCRIPTS)) \
+	  $(TEST_PROGRAMS)
+
+# The tests once more, with what gcc can find while they run: memory that is not
+# ours, behaviour that is undefined. Slow: for changes of the library.
+SANITIZED := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all \
+  -fno-omit-frame-pointer
+sanitize: ## run the tests with the address and undefined-behaviour sanitizers
+	$(MAKE) check B=$(B)/sanitize CFLAGS='$(SANITIZED)'
+
+tidy: ## what cppcheck, clang-tidy and gcc -fanalyzer find
+	tests/tidy.sh
 
 # What the fuzzer finds is kept in B/fuzz; the small cases of tests/corpus are
 # read again by tests/test_formats.c.
@@ -118,16 +134,28 @@ fuzz: $(B)/fuzz/readers ## feed random files to the readers, FUZZ_SECONDS=60 (cl
 	  -rss_limit_mb=1024 -max_len=4096 -dict=tests/fuzz_readers.dict \
 	  -artifact_prefix=$(B)/fuzz/ $(B)/fuzz/corpus tests/corpus
 
-DEBIAN_PACKAGES := gcc make libgsl-dev gnuplot-nox fonts-dejavu-core
+# What is needed, and what some tests use where it is there; then what a developer
+# has besides.
+PACKAGES := gcc make libgsl-dev gnuplot-nox fonts-dejavu-core
+PACKAGES_TESTS := groff-base xz-utils zstd
+PACKAGES_DEVELOPER := clang libomp-dev clang-tidy clang-format cppcheck \
+  shellcheck strace ffmpeg
+has = command -v $(1) >/dev/null
+apt = $$([ "$$(id -u)" = 0 ] || echo sudo) apt-get
+define install_packages
+$(apt) update && $(apt) install -y --no-install-recommends $(1)
+endef
 deps: ## install the Debian packages (as root, or with sudo)
-	@if command -v gnuplot gsl-config >/dev/null 2>&1 && \
-	  [ "$$(command -v gnuplot gsl-config | wc -l)" = 2 ]; then \
-	  echo "GSL and gnuplot are installed"; \
+	@if ! { $(call has,gnuplot) && $(call has,gsl-config); }; then \
+	  $(call install_packages,$(PACKAGES) $(PACKAGES_TESTS)); \
+	elif ! { $(call has,groff) && $(call has,xz) && $(call has,zstd); }; then \
+	  $(call install_packages,$(PACKAGES_TESTS)) || \
+	    echo "without $(PACKAGES_TESTS): some tests will be skipped"; \
 	else \
-	  sudo=; [ "$$(id -u)" = 0 ] || sudo=sudo; \
-	  $$sudo apt-get update && \
-	  $$sudo apt-get install -y --no-install-recommends $(DEBIAN_PACKAGES); \
+	  echo "GSL, gnuplot and what the tests use are installed"; \
 	fi
+deps-developer: ## ... and what else developers use: clang, linters
+	@$(call install_packages,$(PACKAGES) $(PACKAGES_TESTS) $(PACKAGES_DEVELOPER))
 
 demo: all ## settle 200 spheres, print the solid fraction, draw the bed
 	$(B)/settle --seed 1 > $(B)/demo.tsv.partial
@@ -186,4 +214,4 @@ help: ## this list
 
 include plots/rules.mk plots/captions.mk
 
-.PHONY: all check fuzz deps demo man install uninstall clean help
+.PHONY: all check check-quick sanitize tidy fuzz deps deps-developer demo man install uninstall clean help

@@ -39,7 +39,7 @@ declare -A makes=(
 )
 # Targets that make no figure; bench-clean comes last.
 others=' all check fuzz deps demo install uninstall clean help readme docs-figures bench-clean'
-others+=' sanitize tidy check-long '
+others+=' sanitize tidy check-long check-quick deps-developer man '
 
 targets=()
 while read -r target _; do

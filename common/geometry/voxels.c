@@ -364,7 +364,7 @@ static void mark(struct row *w) {
   for (size_t i = 0; i < v->cells[0]; i++)
     w->holds[i] = NOTHING;
   for (size_t m = 0; m < w->count; m++) {
-    const uint32_t i = w->member[m];
+    const size_t i = w->member[m];
     const double *c = v->x + 3 * i, r2 = v->r[i] * v->r[i];
     const double near2 =
         nearest2(c[1], w->y[0], w->y[1]) + nearest2(c[2], w->z[0], w->z[1]);
@@ -389,7 +389,7 @@ static void mark(struct row *w) {
 }
 
 /* Volume in a cell that holds this. */
-static double held_volume(struct row *w, uint32_t held, const double cell[6]) {
+static double held_volume(struct row *w, size_t held, const double cell[6]) {
   const struct voxels *v = w->v;
   if (held == SEVERAL)
     return several_volume(w, cell);
@@ -577,7 +577,7 @@ static size_t sift(const struct block *b, uint32_t *candidate, size_t count) {
       least + 2 * sqrt(half2) + 1e-14 * (scale + fabs(least) + sqrt(half2));
   size_t kept = 0;
   for (size_t m = 0; m < count; m++) {
-    const uint32_t i = candidate[m];
+    const size_t i = candidate[m];
     if (surface_distance(v, i, p) > most)
       continue;
     candidate[m] = candidate[kept];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A program's command line, by its table of options. Tested in tests/test_cli.sh
-   and tests/test_habits.sh. */
+/* A program's command line, by its table of options. Tested in
+   tests/test_cli.sh and tests/test_habits.sh. */
 #ifndef COMMAND_LINE_H
 #define COMMAND_LINE_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Options by name: tables that command lines (command_line.h), help (help.h) and
-   the keys of a bed's header (scene_options.h) share. */
+/* Options by name: tables that command lines (command_line.h), help (help.h)
+   and the keys of a bed's header (scene_options.h) share. */
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
