@@ -132,7 +132,7 @@ fuzz: $(B)/fuzz/readers ## feed random files to the readers, FUZZ_SECONDS=60 (cl
 	@mkdir -p $(B)/fuzz/corpus
 	$(B)/fuzz/readers -max_total_time=$(FUZZ_SECONDS) -timeout=10 -verbosity=0 -print_final_stats=1 \
 	  -rss_limit_mb=1024 -max_len=4096 -dict=tests/fuzz_readers.dict \
-	  -artifact_prefix=$(B)/fuzz/ $(B)/fuzz/corpus tests/corpus
+	  -artifact_prefix=$(B)/fuzz/ $(B)/fuzz/corpus tests/corpus tests/cases
 
 # What is needed, and what some tests use where it is there; then what a developer
 # has besides.

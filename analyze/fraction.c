@@ -85,19 +85,19 @@ static void cut_slabs(struct boxes *boxes, const double box[6], double height) {
 }
 
 /* The columns of a row besides the time. */
-struct columns {
+struct shown {
   bool box, empty; /* the box's faces, the void fraction */
   size_t sampled;
 };
 
-static void print_names(const struct columns *c) {
+static void print_names(const struct shown *c) {
   printf("t%s\tsum\tunion%s%s\n", c->box ? "\tx0\tx1\ty0\ty1\tz0\tz1" : "",
          c->empty ? "\tvoid" : "",
          c->sampled ? "\tsampled_sum\tsampled_union" : "");
 }
 
 static void print_row(const struct bed *bed, const double box[6],
-                      const struct columns *c) {
+                      const struct shown *c) {
   const double volume = box_volume(box);
   double united, sampled_sum, sampled_union;
   int status = volume_union(bed->n, bed->x, bed->r, box, &united);
@@ -120,7 +120,7 @@ static void print_row(const struct bed *bed, const double box[6],
 
 int verb_fraction(int argc, char **argv) {
   struct option_list box = {6, {0, 1, 0, 1, 0, 1}};
-  struct columns columns = {0};
+  struct shown columns = {0};
   const char *boxes_file = NULL;
   double until = GSL_NAN, slab = 0;
   struct frames_options input = {.may_be_empty = true};

@@ -15,23 +15,37 @@ void frames_open(struct frames *f, const struct frames_options *o, int argc,
   f->in = input_open(first < argc ? argv[first] : NULL, &f->name);
   if (f->in == stdin && isatty(STDIN_FILENO))
     die(EXIT_USAGE, "expected a bed on standard input or a file; see --help");
+  f->may_be_empty = o->may_be_empty;
+  f->any = false;
+  if (o->columns && columns_of_list(&f->columns, o->columns) != GSL_SUCCESS)
+    die(EXIT_USAGE, "--columns %s: %s", o->columns, f->columns.wrong);
   const struct bed_reader_options options = {.allow_partial = o->allow_partial,
-                                             .may_be_empty = o->may_be_empty,
+                                             .may_be_empty = true,
                                              .radius = o->radius,
-                                             .largest = 1e100};
+                                             .largest = 1e100,
+                                             .columns = o->columns ? &f->columns
+                                                                   : NULL};
   if (bed_reader_open(&f->reader, f->in, f->name, &options) != GSL_SUCCESS)
     die(EXIT_IO, "out of memory");
 }
 
 bool frames_next(struct frames *f, struct bed *b) {
-  bed_free(b);
-  const int status = bed_reader_next(f->reader, b);
-  if (status == GSL_EINVAL) {
-    fflush(stdout); /* rows of the frames before it, then the reason */
-    die(EXIT_INPUT, "%s", bed_reader_error(f->reader));
-  }
-  if (status != GSL_SUCCESS && status != GSL_EOF)
-    die(EXIT_IO, "out of memory");
+  int status;
+  do {
+    bed_free(b);
+    status = bed_reader_next(f->reader, b);
+    if (status == GSL_ENOMEM)
+      die(EXIT_IO, "out of memory");
+    if (status == GSL_EINVAL || bed_reader_note(f->reader))
+      fflush(stdout); /* rows of the frames before it, then the reason */
+    if (status == GSL_EINVAL)
+      die(EXIT_INPUT, "%s", bed_reader_error(f->reader));
+    if (bed_reader_note(f->reader))
+      warn("%s", bed_reader_note(f->reader));
+  } while (status == GSL_SUCCESS && !b->n && !f->may_be_empty);
+  f->any |= b->n > 0;
+  if (status == GSL_EOF && !f->any && !f->may_be_empty)
+    die(EXIT_INPUT, "%s: no frame has spheres", f->name);
   return status == GSL_SUCCESS;
 }
 

@@ -8,10 +8,11 @@
 #include "program/command_line.h"
 
 struct frames_options {
-  bool allow_partial; /* take what is complete of a file without a good end */
-  double radius;      /* of spheres that come without one (m); 0: none */
-  bool quiet;         /* no progress */
-  bool may_be_empty;  /* a frame of no spheres is no error */
+  bool allow_partial;  /* take what is complete of a file without a good end */
+  double radius;       /* of spheres that come without one (m); 0: none */
+  const char *columns; /* what a row's columns are; NULL: their names say so */
+  bool quiet;          /* no progress */
+  bool may_be_empty;   /* a frame of no spheres is no error */
 };
 
 /* Rows of a verb's option table, into a struct frames_options s. */
@@ -20,6 +21,9 @@ struct frames_options {
   {.name = "radius", .type = OPTION_DOUBLE, .value = &(s).radius,              \
    .least = DBL_MIN, .most = OPTION_MANY, .unit = "m",                         \
    .help = "of spheres that come without one"},                                \
+  {.name = "columns", .type = OPTION_TEXT, .value = &(s).columns,              \
+   .unit = "- skips one",                                                      \
+   .help = "of a table, such as x,y,z,r, instead of its names"},               \
   {.name = "allow-partial", .type = OPTION_FLAG, .value = &(s).allow_partial,  \
    .help = "take a file that is cut short or marked as failed"},               \
   {.name = "quiet", .type = OPTION_FLAG, .value = &(s).quiet,                  \
@@ -29,6 +33,8 @@ struct frames_options {
 struct frames {
   FILE *in;
   const char *name; /* of the input, for messages */
+  struct columns columns;
+  bool may_be_empty, any; /* any: there was a frame with spheres */
   struct bed_reader *reader;
 };
 
@@ -37,8 +43,10 @@ struct frames {
 void frames_open(struct frames *f, const struct frames_options *o, int argc,
                  char **argv, int first);
 
-/* The next frame, which takes the place of b's last one. False at the end;
-   exits with one line on bad input. */
+/* The next frame, which takes the place of b's last one; those without spheres
+   are passed over unless they may be empty. False at the end; exits with one
+   line on bad input. What is no error but should be known goes to standard
+   error. */
 bool frames_next(struct frames *f, struct bed *b);
 
 /* The keys read so far, "t" and "status" among them (bed_header_get); none in

@@ -18,26 +18,40 @@ static void check_memory(int status) {
     die(EXIT_IO, "out of memory");
 }
 
-/* The last frame of the scene's file; its keys go into the header. */
-static void read_scene(const struct settings *s, struct bed *b,
+/* The last frame with spheres of the scene's file, of any format; a bed's keys
+   go into the header. radius: of spheres that come without one. */
+static void read_scene(const struct settings *s, double radius, struct bed *b,
                        struct bed_header *h, const char **name) {
   FILE *in = input_open(s->scene_file, name);
   const struct bed_reader_options options = {.allow_partial = s->allow_partial,
-                                             .format = bed_format_named("bed")};
+                                             .may_be_empty = true,
+                                             .radius = radius};
   struct bed_reader *reader;
   check_memory(bed_reader_open(&reader, in, *name, &options));
   struct bed frame;
   int status;
   while ((status = bed_reader_next(reader, &frame)) == GSL_SUCCESS) {
-    bed_free(b);
-    *b = frame;
+    if (bed_reader_note(reader))
+      warn("%s", bed_reader_note(reader));
+    if (frame.n) {
+      bed_free(b);
+      *b = frame;
+    } else {
+      bed_free(&frame);
+    }
   }
   check_memory(status);
   if (status != GSL_EOF)
     die(EXIT_INPUT, "%s", bed_reader_error(reader));
+  if (bed_reader_note(reader))
+    warn("%s", bed_reader_note(reader));
+  if (!b->n)
+    die(EXIT_INPUT, "%s: no frame has spheres", *name);
   const struct bed_header *keys = bed_reader_header(reader);
   for (size_t k = 0; k < keys->count; k++)
     check_memory(bed_header_add(h, keys->at[k].name, keys->at[k].value));
+  if (!bed_reader_is_bed(reader) && !s->scene.walls_count)
+    warn("%s: has no walls, expected --wall if there should be any", *name);
   bed_reader_close(reader);
   if (in != stdin)
     fclose(in);
@@ -154,9 +168,10 @@ void start_make(struct settings *s, struct option_spec *options, struct bed *b,
   const char *name = "start";
   const bool own_walls = option_find(options, "wall")->given;
   if (s->scene_file) {
+    struct option_spec *radius = option_find(options, "radius");
     refuse_options_of_start(options);
-    read_scene(s, b, header, &name);
-    check_radius(s, option_find(options, "radius"), b, name);
+    read_scene(s, radius->given ? s->fill.radius : 0, b, header, &name);
+    check_radius(s, radius, b, name);
     const bool other_method = option_find(options, "method")->given;
     const char *bad =
         header_options(header, options, other_method ? is_step_control : NULL);

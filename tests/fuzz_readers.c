@@ -82,6 +82,8 @@ static int fuzz_read(const uint8_t *data, size_t size,
     bed_free(&b);
   }
   REQUIRE(status == GSL_EOF || status == GSL_EINVAL);
+  if (bed_reader_note(r))
+    REQUIRE(!strncmp(bed_reader_note(r), "file:", 5));
   if (status == GSL_EINVAL) {
     const char *error = bed_reader_error(r);
     REQUIRE(!strncmp(error, "file:", 5) && !strpbrk(error, "\n\r\033"));
@@ -105,5 +107,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   const int partial = fuzz_read(data, size, &lenient);
   REQUIRE(strict != GSL_EOF || partial == GSL_EOF);
   fuzz_read(data, size, &bed);
+  static struct columns columns;
+  if (!columns.count)
+    REQUIRE(columns_of_list(&columns, "-,x,y,z,r") == GSL_SUCCESS);
+  const struct bed_reader_options listed = {.largest = fuzz_largest,
+                                            .columns = &columns};
+  fuzz_read(data, size, &listed);
   return 0;
 }

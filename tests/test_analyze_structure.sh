@@ -116,7 +116,7 @@ is 'rest: potential' "$(value potential)" "$want" 1e-9
 # One sphere at rest on the floor, one in free flight: half a weight of net
 # force on each, one contact of a weight.
 awk 'BEGIN {
-  print "# model=basic\n# wall=0 0 0 0 0 -1\nx\ty\tz\tr"
+  print "# format=bed-1\n# model=basic\n# wall=0 0 0 0 0 -1\nx\ty\tz\tr"
   printf "0\t0\t%.17g\t0.1\n1\t1\t1\t0.1\n# status=ok\n",
     0.1 - log(9.81 / 5.8) / 150}' >"$T/half"
 measure rest "$T/half"
@@ -195,12 +195,14 @@ is 'a pipe of three frames' "$(wc -l <"$T/out")" 4
 
 # What is refused.
 printf 'x,y,z,r\n1,1,1,.1\n1,1,1,.1\n' >"$T/same"
-printf '# kappa=-1\nx\ty\tz\n1\t1\t1\n# status=ok\n' >"$T/kappa"
-printf '# gravity=0\nx\ty\tz\n1\t1\t1\n# status=ok\n' >"$T/weightless"
+printf '# format=bed-1\n# kappa=-1\nx\ty\tz\n1\t1\t1\n# status=ok\n' >"$T/kappa"
+printf '# format=bed-1\n# gravity=0\nx\ty\tz\n1\t1\t1\n# status=ok\n' \
+  >"$T/weightless"
 refuse 'two tables' 2 'one of --degrees' contacts --network --degrees "$T/sc"
 refuse 'an empty box' 2 'x0 < x1' contacts --box 1,0,0,1,0,1 "$T/sc"
 refuse 'an empty box' 2 'x0 < x1' gr --box 1,0,0,1,0,1 "$T/sc"
-printf '# wall=0 0 0 0 0 -1\nid\tx\ty\tz\n0\t0.5\t0.5\t-1e60\n# status=ok\n' \
+printf '%b' '# format=bed-1\n# wall=0 0 0 0 0 -1\nid\tx\ty\tz\n' \
+  '0\t0.5\t0.5\t-1e60\n# status=ok\n' \
   >"$T/outside"
 refuse 'overlaps without end' 3 'more than a million bins' contacts --overlaps \
   "$T/outside"
@@ -216,7 +218,8 @@ refuse 'no cutoff' 2 'cutoff' order --cutoff 0 "$T/sc"
 refuse 'a second file' 2 'one file' rest "$T/sc" "$T/sc"
 refuse 'a verb that is none' 2 "after 'fractoin'" fractoin "$T/sc"
 for verb in contacts rest; do
-  printf '# radius=0.09\n# radius_dynamics=0.1\nx\ty\tz\n1\t1\t1\n# %s\n' \
+  printf '# format=bed-1\n# radius=0.09\n# radius_dynamics=0.1\nx\ty\tz
+1\t1\t1\n# %s\n' \
     status=ok >"$T/rewritten"
   "$B/analyze" $verb "$T/rewritten" >/dev/null 2>"$T/err"
   is "$verb: a rewritten radius: exit status" $? 0

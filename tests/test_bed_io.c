@@ -261,7 +261,7 @@ static void test_columns(void) {
   /* any order, some of them; spaces; a sign; comments */
   r = read_text("#made by hand\n#t=1\n# no key\n"
                 "wz\tm\tz\tvy\tid\ty\tx\tr\n"
-                "+9\t2\t.5\t-4e-1\t-8\t1e1\t-0\t0x1p-3\n# status=ok\n");
+                "+9\t2\t.5\t-4e-1\t-8\t1e1\t-0\t.125\n# status=ok\n");
   CHECK(r.status == GSL_EOF && r.frames == 1);
   if (r.frames == 1) {
     const struct bed *b = &r.bed[0];
@@ -361,13 +361,13 @@ struct refused {
 static const struct refused refusals[] = {
     {HEAD "id\tx\ty\tz\tcolour\n" ROW END, 3, 3, "colour"},
     {HEAD "id\tx\ty\tz\tX\n" ROW END, 3, 3, "'X'"},
-    {HEAD "id\tx\ty\tz\tx\n" ROW END, 3, 3, "twice"},
+    {HEAD "id\tx\ty\tz\tx\n" ROW END, 3, 3, "columns 'x' and 'x'"},
     {HEAD "id\tx\ty\n0\t1\t2\n" END, 3, 3, "x, y and z"},
     {HEAD "id\tr\n" END, 3, 3, "x, y and z"},
     {HEAD COLUMNS_LINE "0\t1\t2\t3\t0.1\t1\n" END, 4, 4, "vx"},
     {HEAD COLUMNS_LINE "0\t1\t2\t3\t0.1\t1\t\n" END, 4, 4, "vx"},
-    {HEAD COLUMNS_LINE "0\t1\t2\t3\t\t1\t0\n" END, 4, 4, "number"},
-    {HEAD COLUMNS_LINE ROW "1\n" END, 5, 5, "number"},
+    {HEAD COLUMNS_LINE "0\t1\t2\t3\t\t1\t0\n" END, 4, 4, "vx is missing"},
+    {HEAD COLUMNS_LINE ROW "1\n" END, 5, 5, "column x"},
     {HEAD COLUMNS_LINE "0\t1\t2\t3\t0.1\t1\t0\t0\n" END, 4, 4, "more"},
     {HEAD COLUMNS_LINE "0\t1\t2\t3\t0.1\t1\t0\tx\n" END, 4, 4, "more"},
     {HEAD COLUMNS_LINE ROW "1\tnan\t2\t3\t0.1\t1\t0\n" END, 5, 5, "column x"},

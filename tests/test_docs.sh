@@ -191,6 +191,10 @@ provide() { # COMMAND
       awk '{ row[NR] = "C " $0 } END { print NR "\n"
         for (i = 1; i <= NR; i++) print row[i] }' > positions.xyz
     ;;
+  *' plain.txt'*)
+    analyze export --format csv bed.tsv | tr , ' ' |
+      awk 'NR > 1 { print $2, $3, $4, $5, 2 * $6 }' > plain.txt
+    ;;
   *' run.csv.gz '*)
     analyze export --format csv bed.tsv | gzip > run.csv.gz
     ;;

@@ -66,7 +66,7 @@ refuse 'a radius of 0' 2 '--radius 0: expected a number above 0' --radius 0 \
 check '--radius' awk 'NR == 2 {d = $2 - 3.14159265358979 / 48
   exit !(d < 1e-14 && -d < 1e-14)}' "$T/got"
 printf 'hello\nworld\n' >"$T/text"
-refuse 'none of them' 3 "$T/text:1: expected a bed, a table .*LAMMPS.*XYZ" \
+refuse 'none of them' 3 "$T/text:1: 'hello': expected a bed, a table .*LAMMPS.*XYZ" \
   "$T/text"
 refuse 'a program' 3 "$B/analyze:[0-9]*: a NUL byte" "$B/analyze"
 head -c -2 "$T/a.xyz" >"$T/cut"

@@ -11,26 +11,39 @@
 #include <gsl/gsl_errno.h>
 #include "files/numbers.h"
 
-int reader_fail(struct bed_reader *r, const char *format, ...) {
-  int used =
-      snprintf(r->error, sizeof r->error, "%s:%zu: ", r->name, r->line_number);
-  if (used < 0 || (size_t)used >= sizeof r->error)
+/* "name:line: ..."; what a file says may be anything, a terminal's control
+   codes too. */
+static void message(const struct bed_reader *r, char *text, size_t size,
+                    const char *format, va_list args) {
+  int used = snprintf(text, size, "%s:%zu: ", r->name, r->line_number);
+  if (used < 0 || (size_t)used >= size)
     used = 0;
-  va_list args;
-  va_start(args, format);
-  vsnprintf(r->error + used, sizeof r->error - (size_t)used, format, args);
-  va_end(args);
-  /* what a file says may be anything, a terminal's control codes too */
-  for (char *c = r->error; *c; c++)
+  vsnprintf(text + used, size - (size_t)used, format, args);
+  for (char *c = text; *c; c++)
     if (iscntrl((unsigned char)*c))
       *c = '?';
+}
+
+int reader_fail(struct bed_reader *r, const char *format, ...) {
+  va_list args;
+  va_start(args, format);
+  message(r, r->error, sizeof r->error, format, args);
+  va_end(args);
   return GSL_EINVAL;
+}
+
+void reader_note(struct bed_reader *r, const char *format, ...) {
+  va_list args;
+  va_start(args, format);
+  message(r, r->note, sizeof r->note, format, args);
+  va_end(args);
 }
 
 /* Lines */
 
-static int read_line(struct bed_reader *r, size_t *length) {
-  size_t n = 0;
+/* Appends what stands up to the next end of a line. */
+static int read_bytes(struct bed_reader *r, size_t begin, size_t *length) {
+  size_t n = begin;
   int c;
   flockfile(r->in);
   do {
@@ -53,7 +66,124 @@ static int read_line(struct bed_reader *r, size_t *length) {
   *length = n;
   if (c == EOF && ferror(r->in))
     return reader_fail(r, "read error");
-  return n ? GSL_SUCCESS : GSL_EOF;
+  return n > begin ? GSL_SUCCESS : GSL_EOF;
+}
+
+/* What is no text can be told by its first bytes. */
+static int check_first_bytes(struct bed_reader *r, size_t length) {
+  static const struct {
+    const char *bytes, *what;
+  } known[] = {{"\x1F\x8B", "gzip, expected 'zcat FILE | ...'"},
+               {"\xFD"
+                "7zXZ",
+                "xz, expected 'xzcat FILE | ...'"},
+               {"\x28\xB5\x2F\xFD", "zstd, expected 'zstdcat FILE | ...'"},
+               {"BZh", "bzip2, expected 'bzcat FILE | ...'"},
+               {"PK\x03\x04", "zip or a spreadsheet, expected text"},
+               {"\xFF\xFE", "UTF-16, expected UTF-8"},
+               {"\xFE\xFF", "UTF-16, expected UTF-8"}};
+  for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
+    const size_t size = strlen(known[k].bytes);
+    if (length >= size && !memcmp(r->line, known[k].bytes, size))
+      return reader_fail(r, "this is %s", known[k].what);
+  }
+  return GSL_SUCCESS;
+}
+
+/* A line of the file, from r->line + begin on. */
+static int read_line(struct bed_reader *r, size_t begin, size_t *length) {
+  int status = read_bytes(r, begin, length);
+  if (status != GSL_SUCCESS)
+    return status;
+  size_t n = *length;
+  if (++r->lines_read == 1)
+    status = check_first_bytes(r, n);
+  if (status != GSL_SUCCESS)
+    return status;
+  char *line = r->line;
+  if (!line[n - 1])
+    return reader_fail(r, "a NUL byte: expected text");
+  if (n > LONGEST_LINE)
+    return reader_fail(r, "a line of more than %d bytes", LONGEST_LINE);
+  if (line[n - 1] != '\n') {
+    if (!r->options.allow_partial)
+      return reader_fail(r, "the last line has no end: the file is cut "
+                            "short, or lacks its last newline");
+    reader_note(r, "the last line has no end and is left out");
+    r->cut = true;
+    return GSL_EOF;
+  }
+  line[--n] = 0;
+  if (n > begin && line[n - 1] == '\r')
+    line[--n] = 0;
+  if (r->lines_read == 1 && !strncmp(line, "\xEF\xBB\xBF", 3)) {
+    n -= 3;
+    memmove(line, line + 3, n + 1); /* a byte order mark */
+  }
+  *length = n;
+  return GSL_SUCCESS;
+}
+
+bool line_is_comment(const char *line) {
+  line += strspn(line, " \t");
+  return *line == '#' || *line == '%';
+}
+
+/* Behind the quote that ends this one, which is not doubled; NULL: none. */
+static const char *behind_quote(const char *open) {
+  const char *at = open + 1;
+  while ((at = strchr(at, '"')) && at[1] == '"')
+    at += 2;
+  return at ? at + 1 : NULL;
+}
+
+/* Does a field begin with a quote that does not end in this line? */
+static bool quote_is_open(const char *line) {
+  if (!strchr(line, '"') || line_is_comment(line))
+    return false;
+  for (const char *at = line; at; at = strpbrk(at, ",;\t")) {
+    at += strspn(at, ",; \t");
+    if (*at == '"' && !(at = behind_quote(at)))
+      return true;
+  }
+  return false;
+}
+
+static int next_line(struct bed_reader *r) {
+  size_t length;
+  r->line_number = r->lines_read + 1;
+  int status = read_line(r, 0, &length);
+  if (status == GSL_EOF)
+    r->line_number = r->lines_read;
+  while (status == GSL_SUCCESS && r->quotes && quote_is_open(r->line)) {
+    r->line[length++] = '\n';
+    status = read_line(r, length, &length);
+    if (status == GSL_EOF && !r->options.allow_partial)
+      return reader_fail(r, "a quote is opened and not closed");
+  }
+  return status;
+}
+
+int reader_keep(struct bed_reader *r) {
+  if (r->kept_count == r->kept_size) {
+    const size_t size = 2 * r->kept_size + 16;
+    struct kept_line *kept = realloc(r->kept, size * sizeof *kept);
+    if (!kept)
+      return GSL_ENOMEM;
+    r->kept = kept;
+    r->kept_size = size;
+  }
+  char *text = strdup(r->line);
+  if (!text)
+    return GSL_ENOMEM;
+  r->kept[r->kept_count++] = (struct kept_line){text, r->line_number};
+  r->kept_next = r->kept_count;
+  return GSL_SUCCESS;
+}
+
+void reader_rewind(struct bed_reader *r) {
+  r->kept_next = 0;
+  r->held = false;
 }
 
 int reader_line(struct bed_reader *r) {
@@ -61,26 +191,11 @@ int reader_line(struct bed_reader *r) {
     r->held = false;
     return GSL_SUCCESS;
   }
-  size_t length;
-  const int status = read_line(r, &length);
-  if (status != GSL_SUCCESS)
-    return status;
-  char *line = r->line;
-  r->line_number++;
-  if (!line[length - 1])
-    return reader_fail(r, "a NUL byte: expected text");
-  if (length > LONGEST_LINE)
-    return reader_fail(r, "a line of more than %d bytes", LONGEST_LINE);
-  if (line[length - 1] != '\n')
-    return r->options.allow_partial
-               ? GSL_EOF
-               : reader_fail(r, "the last line has no end: the file is cut "
-                                "short, or lacks its last newline");
-  line[--length] = 0;
-  if (length && line[length - 1] == '\r')
-    line[--length] = 0;
-  if (r->line_number == 1 && !strncmp(line, "\xEF\xBB\xBF", 3))
-    memmove(line, line + 3, length - 2); /* a byte order mark */
+  if (r->kept_next == r->kept_count)
+    return next_line(r);
+  const struct kept_line *kept = &r->kept[r->kept_next++];
+  strcpy(r->line, kept->text); /* it held every one of them */
+  r->line_number = kept->number;
   return GSL_SUCCESS;
 }
 
@@ -94,51 +209,49 @@ const char *reader_field(const struct bed_reader *r, const char **at,
                          size_t *length) {
   if (!*at)
     return NULL;
+  const char blanks[] = " \t", separator[] = {r->separator, 0};
+  const char *const ends = r->separator == BLANKS ? blanks : separator;
   const char *field = *at;
-  field += strspn(field, r->separator == '\t' ? " " : " \t");
-  if (r->separator == BLANKS) {
-    *length = strcspn(field, " \t");
-    *at = field[*length] ? field + *length : NULL;
-    return *length ? field : NULL;
-  }
-  const char *end;
-  if (*field == '"' && (end = strchr(field + 1, '"'))) {
+  field += strspn(field, r->separator == '\t' ? " " : blanks);
+  const char *end = r->quotes && *field == '"' ? behind_quote(field) : NULL;
+  if (r->separator == BLANKS && !*field)
+    return NULL;
+  if (end) {
     field++;
-    *length = (size_t)(end - field);
-    end = strchr(end, r->separator);
+    *length = (size_t)(end - field) - 1;
+    end += strcspn(end, ends);
   } else {
-    end = strchr(field, r->separator);
-    *length = end ? (size_t)(end - field) : strlen(field);
-    while (*length && strchr(" \t", field[*length - 1]))
+    *length = strcspn(field, ends);
+    end = field + *length;
+    while (*length && strchr(blanks, field[*length - 1]))
       --*length;
   }
-  *at = end ? end + 1 : NULL;
+  *at = !*end ? NULL : r->separator == BLANKS ? end : end + 1;
   return field;
 }
 
-bool reader_number(const struct bed_reader *r, const char *field, size_t length,
+size_t reader_fields(const struct bed_reader *r, const char *line,
+                     struct text fields[MOST_FIELDS + 1]) {
+  size_t count = 0, length = 0;
+  for (const char *field;
+       count <= MOST_FIELDS && (field = reader_field(r, &line, &length));)
+    fields[count++] = (struct text){field, length};
+  return count;
+}
+
+bool reader_number(const struct bed_reader *r, struct text field,
                    double *value) {
-  if (!length || isspace((unsigned char)*field))
+  char copy[128]; /* with C's exponent and point */
+  if (field.length >= sizeof copy)
     return false;
-  char *end;
-  double x = strtod(field, &end);
-  if (end != field + length) {
-    char copy[128]; /* with C's exponent and point */
-    if (length >= sizeof copy)
-      return false;
-    for (size_t k = 0; k < length; k++)
-      copy[k] = strchr("dD", field[k])                ? 'e'
-                : r->decimal_comma && field[k] == ',' ? '.'
-                                                      : field[k];
-    copy[length] = 0;
-    x = strtod(copy, &end);
-    if (end != copy + length)
-      return false;
+  for (size_t k = 0; k < field.length; k++) {
+    const char c = field.at[k];
+    copy[k] = c == 'd' || c == 'D'           ? 'e'
+              : r->decimal_comma && c == ',' ? '.'
+                                             : c;
   }
-  if (!isfinite(x))
-    return false;
-  *value = x;
-  return true;
+  copy[field.length] = 0;
+  return number_parse(copy, value);
 }
 
 /* For messages: what a line or field holds, not all of a long one. */
@@ -150,7 +263,7 @@ int reader_line_number(struct bed_reader *r, const char *what, double *value) {
   const char *at = r->line;
   size_t length = 0;
   const char *field = reader_field(r, &at, &length);
-  if (!field || !reader_number(r, field, length, value) ||
+  if (!field || !reader_number(r, (struct text){field, length}, value) ||
       !line_is_blank(field + length))
     return reader_fail(r, "%s is '%.40s': expected a finite number", what,
                        r->line);
@@ -169,43 +282,66 @@ int reader_line_count(struct bed_reader *r, const char *what, size_t *count) {
 
 /* Columns */
 
-void columns_clear(struct bed_reader *r, char separator) {
+void reader_clear_columns(struct bed_reader *r, char separator) {
   r->separator = separator;
-  r->columns_count = 0;
-  memset(r->has, 0, sizeof r->has);
+  r->quotes = false;
+  columns_clear(&r->columns);
 }
 
-int columns_add(struct bed_reader *r, enum column c) {
-  assert(c < COLUMNS && r->columns_count <= MOST_FIELDS);
-  if (r->columns_count == MOST_FIELDS)
-    return reader_fail(r, "more than %d columns", MOST_FIELDS);
-  if (c != COLUMN_OTHER && r->has[c])
-    return reader_fail(r, "column '%s' stands twice", column_name(c));
-  r->has[c] = true;
-  r->columns[r->columns_count++] = (unsigned char)c;
-  return GSL_SUCCESS;
+int reader_add_column(struct bed_reader *r, enum column c, struct text name) {
+  const int status = columns_add(&r->columns, c, name);
+  return status == GSL_SUCCESS ? status
+                               : reader_fail(r, "%s", r->columns.wrong);
 }
 
-int columns_check(struct bed_reader *r) {
-  if (!r->has[COLUMN_X] || !r->has[COLUMN_Y] || !r->has[COLUMN_Z])
+bool reader_takes_columns(struct bed_reader *r) {
+  if (r->options.columns)
+    r->columns = *r->options.columns;
+  return r->options.columns != NULL;
+}
+
+int reader_check_columns(struct bed_reader *r) {
+  const struct columns *c = &r->columns;
+  if (!columns_place(c))
     return reader_fail(r, "columns x, y and z are expected");
-  if (!r->has[COLUMN_R] && !r->has[COLUMN_D] && r->default_radius == 0)
-    return reader_fail(r, "the spheres have no radius: expected a column "
-                          "radius or diameter, or --radius");
+  if (!c->has[COLUMN_R] && !c->has[COLUMN_D] && r->default_radius == 0)
+    return reader_fail(r,
+                       "the spheres have no radius: %sexpected a column radius "
+                       "or diameter, or --radius",
+                       c->dismissed);
   return GSL_SUCCESS;
 }
 
 /* Rows */
 
-static int check_row(struct bed_reader *r, double *row) {
-  if (r->has[COLUMN_D] && !(row[COLUMN_D] > 0))
+/* Both are rounded to three digits at least, half a unit of the last one. */
+static const double rounding = 0.01;
+
+static int check_size(struct bed_reader *r, double *row) {
+  const struct columns *c = &r->columns;
+  if (c->has[COLUMN_D] && !(row[COLUMN_D] > 0))
     return reader_fail(r, "diameter %g: expected a number above 0",
                        row[COLUMN_D]);
-  if (r->has[COLUMN_D] && !r->has[COLUMN_R])
+  if (c->has[COLUMN_D] && !c->has[COLUMN_R])
     row[COLUMN_R] = row[COLUMN_D] / 2;
   if (!(row[COLUMN_R] > 0))
     return reader_fail(r, "radius %g: expected a number above 0",
                        row[COLUMN_R]);
+  if (c->has[COLUMN_D] &&
+      !(fabs(row[COLUMN_D] / 2 - row[COLUMN_R]) <= rounding * row[COLUMN_R]))
+    return reader_fail(r,
+                       "column '%s' is %g and column '%s' is %g: not one "
+                       "sphere's radius and diameter; --columns says which one "
+                       "counts",
+                       c->name[COLUMN_R], row[COLUMN_R], c->name[COLUMN_D],
+                       row[COLUMN_D]);
+  return GSL_SUCCESS;
+}
+
+static int check_row(struct bed_reader *r, double *row) {
+  const int status = check_size(r, row);
+  if (status != GSL_SUCCESS)
+    return status;
   if (!(row[COLUMN_M] > 0))
     return reader_fail(r, "mass %g: expected a number above 0", row[COLUMN_M]);
   if (!number_is_whole(row[COLUMN_ID]))
@@ -213,13 +349,41 @@ static int check_row(struct bed_reader *r, double *row) {
   const double most = r->options.largest;
   for (int c = COLUMN_X; most > 0 && c < COLUMN_T; c++)
     if (!(fabs(row[c]) <= most))
-      return reader_fail(r, "%s is %g: expected at most %g", column_name(c),
-                         row[c], most);
+      return reader_fail(r, "%s is %g: expected at most %g",
+                         column_name((enum column)c), row[c], most);
   return GSL_SUCCESS;
 }
 
+/* The fields of r->line into a row. */
+static int read_row(struct bed_reader *r, double *row) {
+  const struct columns *columns = &r->columns;
+  const char *at = r->line;
+  for (size_t k = 0; k < columns->count; k++) {
+    size_t length = 0;
+    const char *field = reader_field(r, &at, &length);
+    const enum column c = columns->at[k];
+    if (!field)
+      return c == COLUMN_OTHER
+                 ? reader_fail(r, "%zu fields: expected %zu", k, columns->count)
+                 : reader_fail(r,
+                               "column %s is missing: %zu fields, expected "
+                               "%zu",
+                               columns->name[c], k, columns->count);
+    if (c == COLUMN_OTHER)
+      continue;
+    if (!reader_number(r, (struct text){field, length}, &row[c]))
+      return reader_fail(r, "column %s is '%.*s': expected a decimal number",
+                         columns->name[c], some(length), field);
+    if (columns->unit[k] != 1)
+      row[c] *= columns->unit[k];
+  }
+  if (!r->more_fields && at && !line_is_blank(at))
+    return reader_fail(r, "more than the %zu columns named", columns->count);
+  return check_row(r, row);
+}
+
 int reader_row(struct bed_reader *r) {
-  assert(r->rows_count <= r->rows_size && r->columns_count);
+  assert(r->rows_count <= r->rows_size && r->columns.count);
   if (r->rows_count == r->rows_size) {
     const size_t size = 2 * r->rows_size + 256;
     void *rows = realloc(r->rows, size * sizeof *r->rows);
@@ -234,22 +398,7 @@ int reader_row(struct bed_reader *r) {
   row[COLUMN_ID] = (double)r->rows_count;
   row[COLUMN_R] = r->default_radius;
   row[COLUMN_M] = 1;
-  const char *at = r->line;
-  for (size_t k = 0; k < r->columns_count; k++) {
-    size_t length = 0;
-    const char *field = reader_field(r, &at, &length);
-    const enum column c = r->columns[k];
-    if (c == COLUMN_OTHER && !field)
-      return reader_fail(r, "%zu fields: expected %zu", k, r->columns_count);
-    if (c == COLUMN_OTHER ||
-        (field && reader_number(r, field, length, &row[c])))
-      continue;
-    return reader_fail(r, "column %s is '%.*s': expected a finite number",
-                       column_name(c), some(length), field ? field : "");
-  }
-  if (!r->more_fields && at && !line_is_blank(at))
-    return reader_fail(r, "more than the %zu columns named", r->columns_count);
-  const int status = check_row(r, row);
+  const int status = read_row(r, row);
   r->rows_count += status == GSL_SUCCESS;
   return status;
 }
@@ -301,12 +450,28 @@ int reader_frame(struct bed_reader *r, struct bed *b, double t) {
   return status;
 }
 
-int reader_cut(struct bed_reader *r, struct bed *b, double t,
-               const char *want) {
+void reader_note_cut(struct bed_reader *r, double t, size_t count) {
+  char of[32] = "";
+  if (r->cut_noted)
+    return;
+  r->cut_noted = true;
+  if (count)
+    snprintf(of, sizeof of, " of %zu", count);
+  if (!r->rows_count)
+    reader_note(r, "cut short behind the frame of t=%g", t);
+  else
+    reader_note(r,
+                "cut short: %zu%s spheres of the last frame, t=%g, were read",
+                r->rows_count, of, t);
+}
+
+int reader_cut(struct bed_reader *r, struct bed *b, double t, const char *want,
+               size_t count) {
   if (!r->options.allow_partial)
     return reader_fail(r, "the file ends where %s is expected: it is cut short",
                        want);
-  if (r->rows_count)
-    return reader_frame(r, b, t);
-  return r->frames ? GSL_EOF : reader_fail(r, "no spheres");
+  if (!r->rows_count && !r->frames)
+    return reader_fail(r, "no spheres");
+  reader_note_cut(r, t, count);
+  return r->rows_count ? reader_frame(r, b, t) : GSL_EOF;
 }

@@ -1,20 +1,51 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "files/numbers.h"
 
+#include <ctype.h>
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 bool number_is_whole(double x) {
   return x == floor(x) && fabs(x) <= NUMBER_MOST_WHOLE;
 }
 
+static const char *skip_digits(const char *at) {
+  while (isdigit((unsigned char)*at))
+    at++;
+  return at;
+}
+
+static const char *skip_sign(const char *at) {
+  return *at == '+' || *at == '-' ? at + 1 : at;
+}
+
+/* Decimal digits with a point and an exponent, and nothing else: strtod takes
+   0x10, nan and infinity as well, which are words or slips where they occur. */
+static bool is_decimal(const char *text) {
+  const char *at = skip_sign(text);
+  const char *digits = at;
+  at = skip_digits(at);
+  bool any = at > digits;
+  if (*at == '.') {
+    digits = at + 1;
+    at = skip_digits(digits);
+    any |= at > digits;
+  }
+  if (any && (*at == 'e' || *at == 'E')) {
+    digits = skip_sign(at + 1);
+    at = skip_digits(digits);
+    any = at > digits;
+  }
+  return any && !*at;
+}
+
 bool number_parse(const char *text, double *value) {
-  char *end;
-  const double x = strtod(text, &end);
-  /* an underflow is fine: it is a tiny number */
-  if (end == text || *end || !isfinite(x) || strpbrk(text, " \t"))
+  if (!is_decimal(text))
+    return false;
+  const double x = strtod(text, NULL); /* an underflow is a tiny number */
+  if (!isfinite(x))
     return false;
   *value = x;
   return true;

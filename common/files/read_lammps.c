@@ -13,79 +13,118 @@ struct dump {
   double t;
   size_t count;
   bool begun, has_t, has_count, has_box, scaled;
-  double origin[3], size[3], xy, xz, yz;
+  double origin[3], edge[3][3]; /* of the box */
 };
 
-static bool begins_item(const char *line) {
+static bool is_item(const char *line) {
   return !strncmp(line, item, strlen(item));
+}
+
+static bool begins_dump(const struct bed_reader *r, const char *line,
+                        bool first) {
+  (void)r;
+  return first && is_item(line);
 }
 
 /* The line after an item's; it may not be missing. */
 static int next_line(struct bed_reader *r) {
   const int status = reader_line(r);
-  if (status == GSL_SUCCESS && begins_item(r->line))
+  if (status == GSL_SUCCESS && is_item(r->line))
     return reader_fail(r, "expected what belongs to the ITEM: before");
   return status;
 }
 
-/* The box as a dump has it: bounds of a tilted one, from which its edges
-   follow. */
-static int read_box(struct bed_reader *r, struct dump *d) {
-  double low[3], high[3], tilt[3] = {0};
-  columns_clear(r, BLANKS);
+/* Three lines of between least and most numbers; what is missing is 0. */
+static int read_bounds(struct bed_reader *r, size_t least, size_t most,
+                       double value[3][4]) {
+  struct text fields[MOST_FIELDS + 1];
+  reader_clear_columns(r, BLANKS);
   for (int k = 0; k < 3; k++) {
     const int status = next_line(r);
     if (status != GSL_SUCCESS)
       return status;
-    const char *at = r->line, *field;
-    double value[3] = {0, 0, 0};
-    int count = 0;
-    size_t length;
-    while ((field = reader_field(r, &at, &length))) {
-      if (count == 3 || !reader_number(r, field, length, &value[count]))
-        return reader_fail(r, "'%.40s': expected the bounds of the box",
-                           r->line);
-      count++;
+    const size_t count = reader_fields(r, r->line, fields);
+    bool good = count >= least && count <= most;
+    for (size_t f = 0; f < 4; f++) {
+      value[k][f] = 0;
+      good = good && (f >= count || reader_number(r, fields[f], &value[k][f]));
     }
-    if (count < 2)
+    if (!good)
       return reader_fail(r, "'%.40s': expected the bounds of the box", r->line);
-    low[k] = value[0];
-    high[k] = value[1];
-    tilt[k] = value[2];
   }
-  d->xy = tilt[0];
-  d->xz = tilt[1];
-  d->yz = tilt[2];
-  const double sum = d->xy + d->xz;
-  low[0] -= fmin(fmin(0, sum), fmin(d->xy, d->xz));
-  high[0] -= fmax(fmax(0, sum), fmax(d->xy, d->xz));
-  low[1] -= fmin(0, d->yz);
-  high[1] -= fmax(0, d->yz);
+  return GSL_SUCCESS;
+}
+
+/* A general triclinic box: its edges, and a coordinate of the origin behind
+   each of them. */
+static int read_general_box(struct bed_reader *r, struct dump *d) {
+  double value[3][4];
+  const int status = read_bounds(r, 4, 4, value);
+  if (status != GSL_SUCCESS)
+    return status;
   for (int k = 0; k < 3; k++) {
-    d->origin[k] = low[k];
-    d->size[k] = high[k] - low[k];
+    memcpy(d->edge[k], value[k], sizeof d->edge[k]);
+    d->origin[k] = value[k][3];
   }
   d->has_box = true;
   return GSL_SUCCESS;
 }
 
-/* Of the columns x.. y.. z.. with this ending, are there all? */
-static bool has_places(const struct bed_reader *r, const char *names,
+/* Any other box: bounds and, of a tilted one, xy, xz and yz. The bounds then
+   are those of the whole box, from which its edges follow. */
+static int read_box(struct bed_reader *r, struct dump *d) {
+  double value[3][4], low[3], high[3];
+  const int status = read_bounds(r, 2, 3, value);
+  if (status != GSL_SUCCESS)
+    return status;
+  const double xy = value[0][2], xz = value[1][2], yz = value[2][2];
+  for (int k = 0; k < 3; k++) {
+    low[k] = value[k][0];
+    high[k] = value[k][1];
+  }
+  const double sum = xy + xz;
+  low[0] -= fmin(fmin(0, sum), fmin(xy, xz));
+  high[0] -= fmax(fmax(0, sum), fmax(xy, xz));
+  low[1] -= fmin(0, yz);
+  high[1] -= fmax(0, yz);
+  const double edge[3][3] = {{high[0] - low[0], 0, 0},
+                             {xy, high[1] - low[1], 0},
+                             {xz, yz, high[2] - low[2]}};
+  memcpy(d->edge, edge, sizeof edge);
+  memcpy(d->origin, low, sizeof low);
+  d->has_box = true;
+  return GSL_SUCCESS;
+}
+
+/* Of a name x.. y.. z.. with this ending: which of them, or -1. */
+static int place_of(struct text name, const char *ending) {
+  const struct text rest = {name.at + 1, name.length - 1};
+  return name.length && strchr("xyz", *name.at) && same_word(rest, ending)
+             ? *name.at - 'x'
+             : -1;
+}
+
+static bool has_places(size_t count, const struct text *names,
                        const char *ending) {
   bool has[3] = {false};
-  size_t length;
-  for (const char *name; (name = reader_field(r, &names, &length));)
-    for (int k = 0; k < 3; k++)
-      if (*name == "xyz"[k] && same_word(name + 1, length - 1, ending))
-        has[k] = true;
+  for (size_t k = 0; k < count; k++) {
+    const int axis = place_of(names[k], ending);
+    if (axis >= 0)
+      has[axis] = true;
+  }
   return has[0] && has[1] && has[2];
 }
 
-static int read_names(struct bed_reader *r, struct dump *d, const char *names) {
+static int read_names(struct bed_reader *r, struct dump *d, const char *line) {
   static const char *const endings[] = {"", "u", "s", "su"};
-  columns_clear(r, BLANKS);
+  struct text names[MOST_FIELDS + 1];
+  reader_clear_columns(r, BLANKS);
+  d->scaled = false;
+  if (reader_takes_columns(r))
+    return reader_check_columns(r);
+  const size_t count = reader_fields(r, line, names);
   int e = 0;
-  while (e < 4 && !has_places(r, names, endings[e]))
+  while (e < 4 && !has_places(count, names, endings[e]))
     e++;
   if (e == 4)
     return reader_fail(r, "expected columns x y z, xu yu zu, xs ys zs or xsu "
@@ -93,31 +132,30 @@ static int read_names(struct bed_reader *r, struct dump *d, const char *names) {
   d->scaled = e > 1;
   if (d->scaled && !d->has_box)
     return reader_fail(r, "scaled coordinates without ITEM: BOX BOUNDS");
-  size_t length;
-  int status = GSL_SUCCESS;
-  for (const char *name;
-       status == GSL_SUCCESS && (name = reader_field(r, &names, &length));) {
-    enum column c = COLUMN_OTHER;
-    if (length > 1 + strlen(endings[e]) || !strchr("xyz", *name))
-      c = column_named(name, length);
-    else if (same_word(name + 1, length - 1, endings[e]))
-      c = *name == 'x' ? COLUMN_X : *name == 'y' ? COLUMN_Y : COLUMN_Z;
-    status = columns_add(r, c == COLUMN_T ? COLUMN_OTHER : c);
+  for (size_t k = 0; k < count; k++) {
+    const int axis = place_of(names[k], endings[e]);
+    enum column c = column_named(names[k]);
+    if (axis >= 0)
+      c = (enum column)(COLUMN_X + axis);
+    else if (c == COLUMN_T || (c >= COLUMN_X && c <= COLUMN_Z))
+      c = COLUMN_OTHER;
+    const int status = reader_add_column(r, c, names[k]);
+    if (status != GSL_SUCCESS)
+      return status;
   }
-  return status == GSL_SUCCESS ? columns_check(r) : status;
+  return reader_check_columns(r);
 }
 
 static int unscale(struct bed_reader *r, const struct dump *d) {
   double *x = r->rows[r->rows_count - 1] + COLUMN_X;
-  const double s[3] = {x[0], x[1], x[2]};
-  x[0] = d->origin[0] + s[0] * d->size[0] + s[1] * d->xy + s[2] * d->xz;
-  x[1] = d->origin[1] + s[1] * d->size[1] + s[2] * d->yz;
-  x[2] = d->origin[2] + s[2] * d->size[2];
-  const double most = r->options.largest;
-  for (int k = 0; k < 3; k++)
+  const double s[3] = {x[0], x[1], x[2]}, most = r->options.largest;
+  for (int k = 0; k < 3; k++) {
+    x[k] = d->origin[k] + s[0] * d->edge[0][k] + s[1] * d->edge[1][k] +
+           s[2] * d->edge[2][k];
     if (!isfinite(x[k]) || (most > 0 && fabs(x[k]) > most))
       return reader_fail(r, "column %cs times the box is %g: too large",
                          "xyz"[k], x[k]);
+  }
   return GSL_SUCCESS;
 }
 
@@ -126,7 +164,7 @@ static int read_atoms(struct bed_reader *r, const struct dump *d) {
     int status = reader_line(r);
     if (status != GSL_SUCCESS)
       return status;
-    if (begins_item(r->line))
+    if (is_item(r->line))
       return reader_fail(r, "expected sphere %zu of %zu", r->rows_count + 1,
                          d->count);
     status = reader_row(r);
@@ -139,11 +177,8 @@ static int read_atoms(struct bed_reader *r, const struct dump *d) {
 }
 
 static int read_item(struct bed_reader *r, struct dump *d, const char *name) {
-  if (!strncmp(name, "BOX BOUNDS", 10)) {
-    if (strstr(name, "abc"))
-      return reader_fail(r, "a general triclinic box is not known");
-    return read_box(r, d);
-  }
+  if (!strncmp(name, "BOX BOUNDS", 10))
+    return strstr(name, "abc") ? read_general_box(r, d) : read_box(r, d);
   const bool units = !strncmp(name, "UNITS", 5);
   const bool time = !strncmp(name, "TIME", 4) && strncmp(name, "TIMESTEP", 8);
   const bool step = !strncmp(name, "TIMESTEP", 8);
@@ -151,7 +186,7 @@ static int read_item(struct bed_reader *r, struct dump *d, const char *name) {
   if (!units && !time && !step && !count)
     return reader_fail(r, "'ITEM: %.40s' is not known", name);
   int status = next_line(r);
-  columns_clear(r, BLANKS);
+  reader_clear_columns(r, BLANKS);
   if (status != GSL_SUCCESS || units)
     return status;
   if (count) {
@@ -172,7 +207,7 @@ static int next_dump(struct bed_reader *r, struct bed *b) {
   while ((status = reader_line(r)) == GSL_SUCCESS) {
     if (line_is_blank(r->line))
       continue;
-    if (!begins_item(r->line))
+    if (!is_item(r->line))
       return reader_fail(r, "'%.40s': expected a line 'ITEM: ...'%s", r->line,
                          r->frames ? ", or more atoms announced" : "");
     d.begun = true;
@@ -194,9 +229,14 @@ static int next_dump(struct bed_reader *r, struct bed *b) {
   }
   if (status != GSL_EOF)
     return status;
-  return d.begun || !r->frames ? reader_cut(r, b, d.t, "more of a frame")
-                               : GSL_EOF;
+  return d.begun || !r->frames
+             ? reader_cut(r, b, d.t, "more of a frame", d.count)
+             : GSL_EOF;
 }
 
-const struct bed_format format_lammps = {
-    "lammps", "text dump of LAMMPS and LIGGGHTS", begins_item, 1, next_dump};
+const struct bed_format format_lammps = {.name = "lammps",
+                                         .help = "text dumps of LAMMPS and "
+                                                 "LIGGGHTS",
+                                         .begins = begins_dump,
+                                         .state_size = 1,
+                                         .next = next_dump};

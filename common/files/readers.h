@@ -6,6 +6,6 @@
 #include "files/bed_reader.h"
 
 extern const struct bed_format format_bed, format_table, format_lammps,
-    format_xyz;
+    format_lammps_data, format_xyz;
 
 #endif
