@@ -7,6 +7,7 @@
 #include <gsl/gsl_math.h>
 #include "platform/system.h"
 #include "program/files.h"
+#include "files/numbers.h"
 #include "frames.h"
 #include "measure.h"
 #include "program/command_line.h"
@@ -249,9 +250,11 @@ static void write_series(const struct request *q, struct frames *frames) {
       write_one(NULL, name, q, frames, &bed, number, true, &shape);
     }
     say(q, &shape);
-    if (list_name)
-      fprintf(list.stream, "<DataSet timestep=\"%.17g\" file=\"%s\"/>\n", bed.t,
-              base_name(name));
+    if (list_name) {
+      fputs("<DataSet timestep=\"", list.stream);
+      numbers_write(list.stream, ' ', 1, &bed.t);
+      fprintf(list.stream, "\" file=\"%s\"/>\n", base_name(name));
+    }
     free(name);
   }
   if (list_name) {

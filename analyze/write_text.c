@@ -11,8 +11,10 @@ void write_positions(FILE *out, const struct write_frame *f,
                      const struct write_options *o) {
   (void)o;
   const double *x = f->bed->x;
-  for (size_t i = 0; i < f->bed->n; i++, x += 3)
-    fprintf(out, "%.17g\t%.17g\t%.17g\n", x[0], x[1], x[2]);
+  for (size_t i = 0; i < f->bed->n; i++, x += 3) {
+    numbers_write(out, '\t', 3, x);
+    fputc('\n', out);
+  }
 }
 
 void write_csv(FILE *out, const struct write_frame *f,
@@ -23,12 +25,12 @@ void write_csv(FILE *out, const struct write_frame *f,
     fprintf(out, "t,id,x,y,z,r,m,vx,vy,vz,wx,wy,wz\n");
   for (size_t i = 0; i < b->n; i++) {
     const double *x = b->x + 3 * i, *v = b->v + 3 * i, *w = b->w + 3 * i;
-    fprintf(
-        out,
-        "%.17g,%ld,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,"
-        "%.17g\n",
-        b->t, b->id[i], x[0], x[1], x[2], b->r[i], b->m[i], v[0], v[1], v[2],
-        w[0], w[1], w[2]);
+    const double row[] = {x[0], x[1], x[2], b->r[i], b->m[i], v[0],
+                          v[1], v[2], w[0], w[1],    w[2]};
+    numbers_write(out, ',', 1, &b->t);
+    fprintf(out, ",%ld,", b->id[i]);
+    numbers_write(out, ',', 11, row);
+    fputc('\n', out);
   }
 }
 

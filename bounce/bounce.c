@@ -11,6 +11,7 @@
 #include <gsl/gsl_roots.h>
 #include "program/command_line.h"
 #include "dynamics/drop.h"
+#include "files/numbers.h"
 #include "model/scene.h"
 #include "program/files.h"
 #include "program/integration.h"
@@ -135,8 +136,9 @@ static int print_samples(struct bounce *b, size_t samples) {
         return EXIT_INTEGRATION;
     if (integrate_at(b->it, t, y) != GSL_SUCCESS)
       die(EXIT_IO, "internal error: no state at t=%g", t);
-    printf("%.17g\t%.17g\t%.17g\t%.17g\n", t, y[0], y[1],
-           drop_energy(&b->drop, y));
+    const double row[] = {t, y[0], y[1], drop_energy(&b->drop, y)};
+    numbers_write(stdout, '\t', 4, row);
+    putchar('\n');
   }
   return EXIT_DONE;
 }
@@ -184,8 +186,10 @@ static int print_rebound(struct bounce *b) {
       const double e = d->law.restitution;
       const double hard = (1 + e) * sqrt(2 * b->height / d->gravity);
       puts("restitution\tkappa\tt_hard\tt_rebound\terror_percent\tz_peak");
-      printf("%.17g\t%.17g\t%.17g\t%.17g\t%.17g\t%.17g\n", e, d->law.kappa,
-             hard, t, 100 * (t / hard - 1), y[0]);
+      const double row[] = {e, d->law.kappa,         hard,
+                            t, 100 * (t / hard - 1), y[0]};
+      numbers_write(stdout, '\t', 6, row);
+      putchar('\n');
       return EXIT_DONE;
     }
     rising = rising || v > 0;

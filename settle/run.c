@@ -5,6 +5,7 @@
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
+#include "files/numbers.h"
 #include "program/files.h"
 #include "program/integration.h"
 #include "model/rest.h"
@@ -66,12 +67,16 @@ static int write_due_frames(struct run *r, struct watch_finding *f) {
 
 static void write_log(struct run *r) {
   const double *y = integrate_state(r->motion->integrator);
-  fprintf(r->log, "%.17g\t%.17g\t%zu\t%zu\t%.17g\t%.17g\n",
-          integrate_time(r->motion->integrator),
-          integrate_last_step(r->motion->integrator),
+  const double step[] = {integrate_time(r->motion->integrator),
+                         integrate_last_step(r->motion->integrator)};
+  const double energy[] = {dynamics_kinetic(r->motion->dynamics, y),
+                           dynamics_potential(r->motion->dynamics, y)};
+  numbers_write(r->log, '\t', 2, step);
+  fprintf(r->log, "\t%zu\t%zu\t",
           integrate_counts(r->motion->integrator).accepted,
-          watch_evaluations(r->watch), dynamics_kinetic(r->motion->dynamics, y),
-          dynamics_potential(r->motion->dynamics, y));
+          watch_evaluations(r->watch));
+  numbers_write(r->log, '\t', 2, energy);
+  fputc('\n', r->log);
 }
 
 static bool at_rest(struct run *r) {

@@ -66,7 +66,7 @@ awk 'BEGIN {
   print "# status=ok"}' >"$T/column"
 measure contacts "$T/column"
 is 'column: rows' "$(wc -l <"$T/out")" 4
-is 'column: t of the second row' "$(value t 2)" 0.20000000000000001
+is 'column: t of the second row' "$(value t 2)" 0.2
 is 'column: floor' "$(value floor)" 1 1e-9
 is 'column: sides' "$(value sides)" 0 0
 is 'column: pairs' "$(value pairs)" 9
@@ -215,8 +215,8 @@ for verb in fraction profile contacts rest gr order radius; do
 done
 refuse 'no bins' 2 'bins' gr --bins 0 "$T/sc"
 refuse 'no cutoff' 2 'cutoff' order --cutoff 0 "$T/sc"
-refuse 'a second file' 2 'one file' rest "$T/sc" "$T/sc"
-refuse 'a verb that is none' 2 "after 'fractoin'" fractoin "$T/sc"
+refuse 'a second file' 2 'one file' radius "$T/sc" "$T/sc"
+refuse 'a verb that is none' 2 "'fractoin'.*did you mean" fractoin "$T/sc"
 for verb in contacts rest; do
   printf '# format=bed-1\n# radius=0.09\n# radius_dynamics=0.1\nx\ty\tz
 1\t1\t1\n# %s\n' \

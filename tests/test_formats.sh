@@ -136,7 +136,7 @@ if "$python" -c 'import ase' 2>"$T/log"; then
   "$python" "$T/write.py" "$T/numbers" "$T/extended" "$T/simple"
   check 'ASE: extended XYZ' near "$T/extended"
   check 'ASE: its time, twice' test "$("$B/analyze" "$T/extended" |
-    cut -f 1 | tr '\n' ' ')" = 't 0.40000000000000002 0.40000000000000002 '
+    cut -f 1 | tr '\n' ' ')" = 't 0.4 0.4 '
   check 'ASE: plain XYZ' near "$T/simple" --radius 0.1
 else
   echo 'skipped: ASE (python3-ase) is not installed'

@@ -163,7 +163,7 @@ check "radius: columns" names \
   't\tkeep\tradius\tsum\tunion\toverlaps\tmean_overlap\tlargest_overlap'
 awk -F '\t' '$2 == "touching"' "$T/out" >"$T/w"
 check "radius: two spheres touch" is 'n == 4'
-check "radius: at 0.1" test "$(cut -f 3 "$T/w")" = 0.099999999999999978
+check "radius: at 0.1" test "$(cut -f 3 "$T/w")" = 0.09999999999999998
 run analyze radius --report --keep fraction=0.1 --of sum "$T/one"
 check "radius: of a sum" is 'near(r["radius"], exp(log(0.075 / pi) / 3), 1e-15) &&
   r["keep"] == "fraction=0.1"'

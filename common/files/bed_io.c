@@ -6,6 +6,7 @@
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include "files/columns.h"
+#include "files/numbers.h"
 
 /* Header */
 
@@ -81,18 +82,19 @@ void bed_write_frame(FILE *out, const struct bed_header *h, const struct bed *b,
   for (size_t k = 0; k < h->count; k++)
     if (strcmp(h->at[k].name, "t") && strcmp(h->at[k].name, "status"))
       fprintf(out, "# %s=%s\n", h->at[k].name, h->at[k].value);
-  fprintf(out, "# t=%.17g\n", b->t);
-  fputs(column_name(COLUMN_ID), out);
+  fputs("# t=", out);
+  numbers_write(out, 0, 1, &b->t);
+  fprintf(out, "\n%s", column_name(COLUMN_ID));
   for (int c = COLUMN_X; c <= (spin ? COLUMN_WZ : COLUMN_VZ); c++)
     if (c != COLUMN_D)
       fprintf(out, "\t%s", column_name((enum column)c));
   fputc('\n', out);
   for (size_t i = 0; i < b->n; i++) {
+    fprintf(out, "%ld\t", b->id[i]);
     const double *x = b->x + 3 * i, *v = b->v + 3 * i, *w = b->w + 3 * i;
-    fprintf(out, "%ld\t%.17g\t%.17g\t%.17g\t%.17g\t%.17g\t%.17g\t%.17g\t%.17g",
-            b->id[i], x[0], x[1], x[2], b->r[i], b->m[i], v[0], v[1], v[2]);
-    if (spin)
-      fprintf(out, "\t%.17g\t%.17g\t%.17g", w[0], w[1], w[2]);
+    const double row[] = {x[0], x[1], x[2], b->r[i], b->m[i], v[0],
+                          v[1], v[2], w[0], w[1],    w[2]};
+    numbers_write(out, '\t', spin ? 11 : 8, row);
     fputc('\n', out);
   }
 }

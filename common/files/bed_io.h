@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The bed format: start state, snapshot, restart and archive in one; text,
-   tab-separated, %.17g, frames separated by two blank lines, "# key=value"
-   lines, a line of column names, and a last line "# status=ok". README.md
-   describes it. Here: its header and the writer; formats.h reads it and what
-   others write. Tested in tests/test_bed_io.c. */
+   tab-separated, numbers as short as they read back the same, frames separated
+   by two blank lines, "# key=value" lines, a line of column names, and a last
+   line "# status=ok". README.md describes it. Here: its header and the writer;
+   formats.h reads it and what others write. Tested in tests/test_bed_io.c. */
 #ifndef BED_IO_H
 #define BED_IO_H
 

@@ -51,10 +51,22 @@ bool number_parse(const char *text, double *value) {
   return true;
 }
 
+/* 15 digits always survive the way through a double and 17 always tell doubles
+   apart. Below DBL_MIN doubles hold fewer. */
 void number_format(double x, char text[NUMBER_SIZE]) {
-  for (int digits = 6; digits <= 17; digits++) {
+  const double magnitude = fabs(x);
+  int digits = magnitude > 0 && magnitude < DBL_MIN ? 1 : 15;
+  do
     snprintf(text, NUMBER_SIZE, "%.*g", digits, x);
-    if (strtod(text, NULL) == x)
-      return;
+  while (digits++ < 17 && strtod(text, NULL) != x);
+}
+
+void numbers_write(FILE *out, char separator, size_t count, const double *x) {
+  char text[NUMBER_SIZE];
+  for (size_t k = 0; k < count; k++) {
+    if (k)
+      fputc(separator, out);
+    number_format(x[k], text);
+    fputs(text, out);
   }
 }

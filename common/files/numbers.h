@@ -6,6 +6,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdio.h>
 
 /* 2^53: up to here a double holds every whole number. */
 #define NUMBER_MOST_WHOLE 9007199254740992.0
@@ -22,5 +23,8 @@ enum { NUMBER_SIZE = 32 }; /* bytes that hold any number as text */
 /* The fewest digits that read back as the same number: 0.4, not
    0.40000000000000002 as %.17g has it. */
 void number_format(double x, char text[NUMBER_SIZE]);
+/* The same of several to a stream, with a separator between them; errors stay
+   in ferror(out). */
+void numbers_write(FILE *out, char separator, size_t count, const double *x);
 
 #endif

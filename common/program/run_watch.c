@@ -9,6 +9,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_rstat.h>
+#include "files/numbers.h"
 #include "platform/system.h"
 #include "program/messages.h"
 
@@ -265,7 +266,9 @@ void run_watch_solver_stats(const struct run_watch *w, FILE *out,
   const struct run_clock now = run_clock_now();
   fprintf(out, "cpu_seconds\t%.6f\n", now.cpu - w->set.begun.cpu);
   fprintf(out, "wall_seconds\t%.6f\n", now.wall - w->set.begun.wall);
-  fprintf(out, "t_end\t%.17g\n", t_end);
+  fputs("t_end\t", out);
+  numbers_write(out, '\t', 1, &t_end);
+  fputc('\n', out);
   const long memory = system_peak_memory();
   if (memory >= 0)
     fprintf(out, "peak_memory_kb\t%ld\n", memory);
