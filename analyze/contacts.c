@@ -10,6 +10,7 @@
 #include "measure.h"
 #include "measure/network.h"
 #include "program/shared_options.h"
+#include "table.h"
 #include "verbs.h"
 
 /* Without friction it takes at least 4 contacts to hold a sphere from all
@@ -129,7 +130,7 @@ static void loads(const struct measured *m, double *floor, double *sides) {
     *floor = *sides = GSL_NAN;
 }
 
-static void print_row(const struct measured *m, bool first) {
+static void print_row(struct table *table, const struct measured *m) {
   struct mean z = {0}, z_spheres = {0}, rigid = {0}, rigid_spheres = {0};
   struct mean overlaps[2] = {{0}, {0}}; /* of pairs, at walls */
   size_t rattlers = 0, walls = 0;
@@ -155,30 +156,34 @@ static void print_row(const struct measured *m, bool first) {
   double fabric[6], floor, sides;
   const size_t pairs = network_fabric(&m->network, m->bed, m->box, fabric);
   loads(m, &floor, &sides);
-  if (first)
-    puts("t\tspheres\tpairs\twall_contacts\tz\tz_spheres\trattlers\tz_rigid\t"
-         "z_rigid_spheres\toverlap_mean\toverlap_max\twall_overlap_mean\t"
-         "wall_overlap_max\tfloor\tsides\tfabric_xx\tfabric_yy\tfabric_zz\t"
-         "fabric_xy\tfabric_xz\tfabric_yz\tanisotropy");
-  printf("%.17g\t%zu\t%zu\t%zu", m->bed->t, z.count, pairs, walls);
-  put(mean(&z));
-  put(mean(&z_spheres));
-  printf("\t%zu", rattlers);
-  put(mean(&rigid));
-  put(mean(&rigid_spheres));
+  table_frame(
+      table, TABLE_ROWS,
+      "t\tspheres\tpairs\twall_contacts\tz\tz_spheres\trattlers\tz_rigid\t"
+      "z_rigid_spheres\toverlap_mean\toverlap_max\twall_overlap_mean\t"
+      "wall_overlap_max\tfloor\tsides\tfabric_xx\tfabric_yy\tfabric_zz\t"
+      "fabric_xy\tfabric_xz\tfabric_yz\tanisotropy");
+  table_number(table, m->bed->t);
+  table_count(table, z.count);
+  table_count(table, pairs);
+  table_count(table, walls);
+  table_number(table, mean(&z));
+  table_number(table, mean(&z_spheres));
+  table_count(table, rattlers);
+  table_number(table, mean(&rigid));
+  table_number(table, mean(&rigid_spheres));
   for (int k = 0; k < 2; k++) {
-    put(overlaps[k].count ? mean(&overlaps[k]) : 0);
-    put(overlaps[k].most);
+    table_number(table, overlaps[k].count ? mean(&overlaps[k]) : 0);
+    table_number(table, overlaps[k].most);
   }
-  put(floor);
-  put(sides);
+  table_number(table, floor);
+  table_number(table, sides);
   for (int k = 0; k < 6; k++)
-    put(pairs ? fabric[k] : GSL_NAN);
-  put(pairs ? network_anisotropy(fabric) : GSL_NAN);
-  putchar('\n');
+    table_number(table, pairs ? fabric[k] : GSL_NAN);
+  table_number(table, pairs ? network_anisotropy(fabric) : GSL_NAN);
+  table_end_row(table);
 }
 
-static void print_degrees(const struct measured *m) {
+static void print_degrees(struct table *table, const struct measured *m) {
   size_t most = 0;
   for (size_t i = 0; i < m->bed->n; i++)
     most = GSL_MAX(most, m->degree[i]);
@@ -189,10 +194,15 @@ static void print_degrees(const struct measured *m) {
       count[3 * m->with_spheres[i] + 1]++;
       count[3 * m->rigid[i] + 2] += !m->rattler[i];
     }
-  puts("t\tcontacts\tspheres\tspheres_by_spheres\tspheres_rigid");
-  for (size_t c = 0; c <= most; c++)
-    printf("%.17g\t%zu\t%zu\t%zu\t%zu\n", m->bed->t, c, count[3 * c],
-           count[3 * c + 1], count[3 * c + 2]);
+  table_frame(table, TABLE_BLOCKS,
+              "t\tcontacts\tspheres\tspheres_by_spheres\tspheres_rigid");
+  for (size_t c = 0; c <= most; c++) {
+    table_number(table, m->bed->t);
+    table_count(table, c);
+    for (int k = 0; k < 3; k++)
+      table_count(table, count[3 * c + (size_t)k]);
+    table_end_row(table);
+  }
   free(count);
 }
 
@@ -208,7 +218,8 @@ static size_t overlap_bin(const struct measured *m,
              : SIZE_MAX;
 }
 
-static void print_overlaps(const struct frames *f, const struct measured *m) {
+static void print_overlaps(struct table *table, const struct frames *f,
+                           const struct measured *m) {
   const struct network *w = &m->network;
   size_t bins = 0;
   for (size_t p = 0; p < w->count; p++) {
@@ -226,54 +237,59 @@ static void print_overlaps(const struct frames *f, const struct measured *m) {
     if (bin != SIZE_MAX)
       count[2 * bin + w->at[p].wall]++;
   }
-  puts("t\toverlap\tpairs\twall_contacts");
-  for (size_t k = 0; k < bins; k++)
-    printf("%.17g\t%.17g\t%zu\t%zu\n", m->bed->t,
-           ((double)k + 0.5) * m->set->bin, count[2 * k], count[2 * k + 1]);
+  table_frame(table, TABLE_BLOCKS, "t\toverlap\tpairs\twall_contacts");
+  for (size_t k = 0; k < bins; k++) {
+    table_number(table, m->bed->t);
+    table_number(table, ((double)k + 0.5) * m->set->bin);
+    table_count(table, count[2 * k]);
+    table_count(table, count[2 * k + 1]);
+    table_end_row(table);
+  }
   free(count);
 }
 
-static void print_network(const struct measured *m) {
+static void print_network(struct table *table, const struct measured *m) {
   const struct bed *b = m->bed;
-  puts("t\ti\tj\twall\tx\ty\tz\tnormal\ttangential\tgap\tnx\tny\tnz");
+  table_frame(table, TABLE_BLOCKS,
+              "t\ti\tj\twall\tx\ty\tz\tnormal\ttangential\tgap\tnx\tny\tnz");
   for (size_t p = 0; p < m->network.count; p++) {
     const struct network_contact *c = &m->network.at[p];
     double x[3];
     if (!c->counts || !within(m, c))
       continue;
     network_point(c, b, x);
-    printf("%.17g\t%ld\t%ld\t%zu", b->t, b->id[c->i],
-           b->id[c->wall ? c->i : c->j], c->wall ? c->j + 1 : 0);
+    table_number(table, b->t);
+    table_id(table, b->id[c->i]);
+    table_id(table, b->id[c->wall ? c->i : c->j]);
+    table_count(table, c->wall ? c->j + 1 : 0);
     for (int k = 0; k < 3; k++)
-      put(x[k]);
-    put(c->normal);
-    put(vec3_norm(c->friction));
-    put(c->gap);
+      table_number(table, x[k]);
+    table_number(table, c->normal);
+    table_number(table, vec3_norm(c->friction));
+    table_number(table, c->gap);
     for (int k = 0; k < 3; k++)
-      put(c->n[k]);
-    putchar('\n');
+      table_number(table, c->n[k]);
+    table_end_row(table);
   }
 }
 
-static void print_frame(const struct frames *f, const struct measured *m,
-                        bool first) {
+static void print_frame(struct table *table, const struct frames *f,
+                        const struct measured *m) {
   const struct contacts *set = m->set;
-  const bool table = set->degrees || set->overlaps || set->network;
-  if (table && !first)
-    fputs("\n\n", stdout);
   if (set->degrees)
-    print_degrees(m);
+    print_degrees(table, m);
   else if (set->overlaps)
-    print_overlaps(f, m);
+    print_overlaps(table, f, m);
   else if (set->network)
-    print_network(m);
+    print_network(table, m);
   else
-    print_row(m, first);
+    print_row(table, m);
 }
 
 int verb_contacts(int argc, char **argv) {
   struct contacts set = {.bin = 0.005};
-  struct frames_options input = {0};
+  struct frames_options input = {.many = true};
+  bool means = false;
   /* clang-format off */
   struct option_spec options[] = {
       NUMBER("gap", &set.gap, -OPTION_MANY, OPTION_MANY, "m",
@@ -292,6 +308,7 @@ int verb_contacts(int argc, char **argv) {
       NUMBER("bin", &set.bin, 1e-4, 1, "diameters", "width of its bins"),
       {.name = "network", .type = OPTION_FLAG, .value = &set.network,
        .help = "one block per frame: the contacts with their forces"},
+      MEAN_OPTION(means),
       FRAMES_OPTIONS(input),
       {0}};
   /* clang-format on */
@@ -324,7 +341,7 @@ int verb_contacts(int argc, char **argv) {
           "--gap 0.1, the default lmax, lists all contacts of the model.\n"
           "Forces come from the parameters and walls in the bed's header. A\n"
           "bed without them has settle's defaults and no walls.",
-      .usage = "contacts [OPTION...] [FILE]",
+      .usage = "contacts [OPTION...] [FILE...]",
       .example = "settle --seed 3 | analyze contacts",
       .options = options};
   const int operand = options_parse(&program, argc, argv);
@@ -335,15 +352,18 @@ int verb_contacts(int argc, char **argv) {
   struct frames frames;
   struct bed bed = {0};
   frames_open(&frames, &input, argc, argv, operand);
-  for (bool first = true; frames_next(&frames, &bed); first = false) {
+  struct table table;
+  table_open(&table, &frames, means);
+  while (frames_next(&frames, &bed)) {
     struct scene scene = frame_scene(&frames, &bed);
-    if (first)
+    if (frames.first)
       frame_warn_rewritten(&frames);
     struct measured m = measure(&frames, &set, &scene, &bed);
-    print_frame(&frames, &m, first);
+    print_frame(&table, &frames, &m);
     measured_free(&m);
     scene_free(&scene);
   }
+  table_close(&table);
   frames_close(&frames);
   finish_output();
   return EXIT_DONE;

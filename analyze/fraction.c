@@ -14,6 +14,7 @@
 #include "frames.h"
 #include "measure.h"
 #include "program/command_line.h"
+#include "table.h"
 #include "verbs.h"
 #include "geometry/volume.h"
 
@@ -34,11 +35,11 @@ static void boxes_add(struct boxes *boxes, const double box[6]) {
 
 /* Six numbers per line; # begins a comment. */
 static void read_boxes(struct boxes *boxes, const char *path) {
-  const char *name;
-  FILE *in = input_open(path, &name);
+  struct input in;
+  input_open(&in, path);
   char *line = NULL;
   size_t size = 0, number = 0;
-  while (getline(&line, &size, in) >= 0) {
+  while (getline(&line, &size, in.stream) >= 0) {
     double box[6];
     int words = 0;
     bool numbers = true;
@@ -50,20 +51,20 @@ static void read_boxes(struct boxes *boxes, const char *path) {
     if (words == 0)
       continue;
     if (!numbers || words != 6)
-      die(EXIT_INPUT, "%s:%zu: expected six numbers x0 x1 y0 y1 z0 z1", name,
+      die(EXIT_INPUT, "%s:%zu: expected six numbers x0 x1 y0 y1 z0 z1", in.name,
           number);
     if (!box_valid(box))
-      die(EXIT_INPUT, "%s:%zu: expected x0 < x1, y0 < y1, z0 < z1", name,
+      die(EXIT_INPUT, "%s:%zu: expected x0 < x1, y0 < y1, z0 < z1", in.name,
           number);
     boxes_add(boxes, box);
   }
-  if (ferror(in))
-    die(EXIT_IO, "%s: read error", name);
+  if (ferror(in.stream))
+    die(EXIT_IO, "%s: read error", in.name);
   if (!boxes->count)
-    die(EXIT_INPUT, "%s: no boxes, expected lines of x0 x1 y0 y1 z0 z1", name);
+    die(EXIT_INPUT, "%s: no boxes, expected lines of x0 x1 y0 y1 z0 z1",
+        in.name);
   free(line);
-  if (in != stdin)
-    fclose(in);
+  input_close(&in);
 }
 
 enum { MOST_SLABS = 1000000 };
@@ -90,14 +91,14 @@ struct shown {
   size_t sampled;
 };
 
-static void print_names(const struct shown *c) {
-  printf("t%s\tsum\tunion%s%s\n", c->box ? "\tx0\tx1\ty0\ty1\tz0\tz1" : "",
-         c->empty ? "\tvoid" : "",
-         c->sampled ? "\tsampled_sum\tsampled_union" : "");
+static void set_names(const struct shown *c, char *names, size_t size) {
+  snprintf(names, size, "t%s\tsum\tunion%s%s",
+           c->box ? "\tx0\tx1\ty0\ty1\tz0\tz1" : "", c->empty ? "\tvoid" : "",
+           c->sampled ? "\tsampled_sum\tsampled_union" : "");
 }
 
-static void print_row(const struct bed *bed, const double box[6],
-                      const struct shown *c) {
+static void print_row(struct table *table, const struct bed *bed,
+                      const double box[6], const struct shown *c) {
   const double volume = box_volume(box);
   double united, sampled_sum, sampled_union;
   int status = volume_union(bed->n, bed->x, bed->r, box, &united);
@@ -106,16 +107,18 @@ static void print_row(const struct bed *bed, const double box[6],
                             &sampled_sum, &sampled_union);
   if (status != GSL_SUCCESS)
     die(EXIT_IO, "t=%g: %s", bed->t, gsl_strerror(status));
-  printf("%.17g", bed->t);
+  table_number(table, bed->t);
   for (int k = 0; k < 6 && c->box; k++)
-    printf("\t%.17g", box[k]);
-  printf("\t%.17g\t%.17g", volume_sum(bed->n, bed->x, bed->r, box) / volume,
-         united / volume);
+    table_number(table, box[k]);
+  table_number(table, volume_sum(bed->n, bed->x, bed->r, box) / volume);
+  table_number(table, united / volume);
   if (c->empty)
-    printf("\t%.17g", 1 - united / volume);
-  if (c->sampled)
-    printf("\t%.17g\t%.17g", sampled_sum / volume, sampled_union / volume);
-  putchar('\n');
+    table_number(table, 1 - united / volume);
+  if (c->sampled) {
+    table_number(table, sampled_sum / volume);
+    table_number(table, sampled_union / volume);
+  }
+  table_end_row(table);
 }
 
 int verb_fraction(int argc, char **argv) {
@@ -123,7 +126,8 @@ int verb_fraction(int argc, char **argv) {
   struct shown columns = {0};
   const char *boxes_file = NULL;
   double until = GSL_NAN, slab = 0;
-  struct frames_options input = {.may_be_empty = true};
+  struct frames_options input = {.may_be_empty = true, .many = true};
+  bool mean = false;
   /* clang-format off */
   struct option_spec options[] = {
       {.name = "box", .type = OPTION_LIST, .value = &box, .least = 6,
@@ -142,6 +146,7 @@ int verb_fraction(int argc, char **argv) {
       {.name = "sampled", .type = OPTION_SIZE, .value = &columns.sampled,
        .most = 4096, .unit = "0: none",
        .help = "count N^3 midpoints as well"},
+      MEAN_OPTION(mean),
       FRAMES_OPTIONS(input),
       {0}};
   /* clang-format on */
@@ -152,7 +157,7 @@ int verb_fraction(int argc, char **argv) {
           "sum of the volumes of the clipped spheres and volume of their\n"
           "union, each divided by that of the box. With many boxes or slabs\n"
           "an empty line separates frames.",
-      .usage = "[fraction] [OPTION...] [FILE]",
+      .usage = "[fraction] [OPTION...] [FILE...]",
       .example = "settle --model basic --seed 3 | analyze",
       .options = options};
   const int operand = options_parse(&program, argc, argv);
@@ -175,16 +180,18 @@ int verb_fraction(int argc, char **argv) {
   struct frames frames;
   struct bed bed = {0};
   frames_open(&frames, &input, argc, argv, operand);
-  for (bool first = true; frames_next(&frames, &bed); first = false) {
+  char names[120];
+  struct table table;
+  set_names(&columns, names, sizeof names);
+  table_open(&table, &frames, mean);
+  while (frames_next(&frames, &bed)) {
     for (size_t k = 0; k < boxes.count; k++)
       frame_check_box(&frames, &bed, boxes.at[k]);
-    if (first)
-      print_names(&columns);
-    else if (columns.box)
-      putchar('\n');
+    table_frame(&table, columns.box ? TABLE_PARTS : TABLE_ROWS, names);
     for (size_t k = 0; k < boxes.count; k++)
-      print_row(&bed, boxes.at[k], &columns);
+      print_row(&table, &bed, boxes.at[k], &columns);
   }
+  table_close(&table);
   frames_close(&frames);
   free(boxes.at);
   finish_output();

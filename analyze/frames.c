@@ -2,51 +2,85 @@
 #define _POSIX_C_SOURCE 200809L
 #include "frames.h"
 
+#include <stdint.h>
+#include <string.h>
 #include <unistd.h>
 #include <gsl/gsl_errno.h>
 #include "program/files.h"
 #include "program/command_line.h"
 
-void frames_open(struct frames *f, const struct frames_options *o, int argc,
-                 char **argv, int first) {
-  if (first + 1 < argc)
-    die(EXIT_USAGE, "'%s' after '%s': expected one file", argv[first + 1],
-        argv[first]);
-  f->in = input_open(first < argc ? argv[first] : NULL, &f->name);
-  if (f->in == stdin && isatty(STDIN_FILENO))
+static void open_next(struct frames *f) {
+  const struct frames_options *o = &f->options;
+  const char *file = f->count ? f->files[f->next] : "-";
+  if (!strcmp(file, "-") && isatty(STDIN_FILENO))
     die(EXIT_USAGE, "expected a bed on standard input or a file; see --help");
-  f->may_be_empty = o->may_be_empty;
+  input_open(&f->in, file);
+  f->next++;
+  f->name = f->in.name;
+  f->part = SIZE_MAX;
   f->any = false;
-  if (o->columns && columns_of_list(&f->columns, o->columns) != GSL_SUCCESS)
-    die(EXIT_USAGE, "--columns %s: %s", o->columns, f->columns.wrong);
   const struct bed_reader_options options = {.allow_partial = o->allow_partial,
                                              .may_be_empty = true,
                                              .radius = o->radius,
                                              .largest = 1e100,
                                              .columns = o->columns ? &f->columns
                                                                    : NULL};
-  if (bed_reader_open(&f->reader, f->in, f->name, &options) != GSL_SUCCESS)
+  if (bed_reader_open(&f->reader, f->in.stream, f->name, &options) !=
+      GSL_SUCCESS)
     die(EXIT_IO, "out of memory");
 }
 
-bool frames_next(struct frames *f, struct bed *b) {
-  int status;
-  do {
-    bed_free(b);
-    status = bed_reader_next(f->reader, b);
-    if (status == GSL_ENOMEM)
-      die(EXIT_IO, "out of memory");
-    if (status == GSL_EINVAL || bed_reader_note(f->reader))
-      fflush(stdout); /* rows of the frames before it, then the reason */
-    if (status == GSL_EINVAL)
-      die(EXIT_INPUT, "%s", bed_reader_error(f->reader));
-    if (bed_reader_note(f->reader))
-      warn("%s", bed_reader_note(f->reader));
-  } while (status == GSL_SUCCESS && !b->n && !f->may_be_empty);
-  f->any |= b->n > 0;
-  if (status == GSL_EOF && !f->any && !f->may_be_empty)
-    die(EXIT_INPUT, "%s: no frame has spheres", f->name);
+void frames_open(struct frames *f, const struct frames_options *o, int argc,
+                 char **argv, int first) {
+  *f = (struct frames){
+      .options = *o, .files = argv + first, .count = (size_t)(argc - first)};
+  if (f->count > 1 && !o->many)
+    die(EXIT_USAGE, "'%s' after '%s': expected one file", argv[first + 1],
+        argv[first]);
+  if (o->columns && columns_of_list(&f->columns, o->columns) != GSL_SUCCESS)
+    die(EXIT_USAGE, "--columns %s: %s", o->columns, f->columns.wrong);
+  open_next(f);
+}
+
+bool frames_several(const struct frames *f) {
+  return f->count > 1;
+}
+
+/* The next frame of the file that is open, an empty one too. */
+static bool read_frame(struct frames *f, struct bed *b) {
+  bed_free(b);
+  const int status = bed_reader_next(f->reader, b);
+  const char *note = bed_reader_note(f->reader);
+  if (status == GSL_ENOMEM)
+    die(EXIT_IO, "out of memory");
+  if (status == GSL_EINVAL || note)
+    fflush(stdout); /* rows of the frames before it, then the reason */
+  if (status == GSL_EINVAL) {
+    input_close(&f->in); /* has a better reason if it cannot be unpacked */
+    die(EXIT_INPUT, "%s", bed_reader_error(f->reader));
+  }
+  if (note)
+    warn("%s", note);
   return status == GSL_SUCCESS;
+}
+
+bool frames_next(struct frames *f, struct bed *b) {
+  for (;;) {
+    if (read_frame(f, b)) {
+      if (!b->n && !f->options.may_be_empty)
+        continue;
+      f->any = true;
+      f->first = f->part != bed_reader_part(f->reader);
+      f->part = bed_reader_part(f->reader);
+      return true;
+    }
+    if (!f->any)
+      die(EXIT_INPUT, "%s: no frame has spheres", f->name);
+    if (f->next >= f->count)
+      return false;
+    frames_close(f);
+    open_next(f);
+  }
 }
 
 const struct bed_header *frames_header(const struct frames *f) {
@@ -69,11 +103,10 @@ struct bed_header frames_copy_header(const struct frames *f) {
 const char *frames_status(const struct frames *f) {
   const struct bed_header *h = frames_header(f);
   const char *status = bed_header_get(h, "status");
-  return status ? status : bed_header_get(h, "format") ? "cut" : "ok";
+  return status ? status : bed_reader_is_cut(f->reader) ? "cut" : "ok";
 }
 
 void frames_close(struct frames *f) {
   bed_reader_close(f->reader);
-  if (f->in != stdin)
-    fclose(f->in);
+  input_close(&f->in);
 }

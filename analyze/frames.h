@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reading the operand of a verb, frame by frame until the end. */
+/* Reading the operands of a verb, frame by frame until the end. */
 #ifndef FRAMES_H
 #define FRAMES_H
 
 #include <float.h>
 #include "files/formats.h"
 #include "program/command_line.h"
+#include "program/files.h"
 
 struct frames_options {
   bool allow_partial;  /* take what is complete of a file without a good end */
@@ -13,6 +14,7 @@ struct frames_options {
   const char *columns; /* what a row's columns are; NULL: their names say so */
   bool quiet;          /* no progress */
   bool may_be_empty;   /* a frame of no spheres is no error */
+  bool many;           /* several files are no error */
 };
 
 /* Rows of a verb's option table, into a struct frames_options s. */
@@ -31,22 +33,31 @@ struct frames_options {
 /* clang-format on */
 
 struct frames {
-  FILE *in;
   const char *name; /* of the input, for messages */
+  bool first;       /* the frame just read is the first one of its bed */
+
+  struct frames_options options;
   struct columns columns;
-  bool may_be_empty, any; /* any: there was a frame with spheres */
+  char **files; /* operands, and which one comes next */
+  size_t count, next;
+  struct input in;
   struct bed_reader *reader;
+  size_t part; /* of the frame before, bed_reader_part */
+  bool any;    /* a frame of this file has spheres */
 };
 
-/* Opens the one operand from argv[first], or standard input. Exits with one
-   line on an error. */
+/* Opens the operands from argv[first], or standard input. Exits with one line
+   on an error. */
 void frames_open(struct frames *f, const struct frames_options *o, int argc,
                  char **argv, int first);
 
+/* Is there more than one operand? */
+bool frames_several(const struct frames *f);
+
 /* The next frame, which takes the place of b's last one; those without spheres
-   are passed over unless they may be empty. False at the end; exits with one
-   line on bad input. What is no error but should be known goes to standard
-   error. */
+   are passed over unless they may be empty. False at the end of the last file;
+   exits with one line on bad input. What is no error but should be known goes
+   to standard error. */
 bool frames_next(struct frames *f, struct bed *b);
 
 /* The keys read so far, "t" and "status" among them (bed_header_get); none in

@@ -9,6 +9,7 @@
 #include "measure/correlation.h"
 #include "measure.h"
 #include "program/shared_options.h"
+#include "table.h"
 #include "verbs.h"
 
 struct gr {
@@ -17,8 +18,8 @@ struct gr {
   size_t bins;
 };
 
-static void print_frame(const struct frames *f, const struct gr *set,
-                        const struct bed *b) {
+static void print_frame(struct table *table, const struct frames *f,
+                        const struct gr *set, const struct bed *b) {
   double *x = measure_alloc(3 * b->n, sizeof *x), box[6], radius = 0;
   double *pairs = measure_alloc(2 * set->bins, sizeof *pairs);
   double *expected = pairs + set->bins;
@@ -38,7 +39,7 @@ static void print_frame(const struct frames *f, const struct gr *set,
   const double rmax = set->rmax * 2 * radius;
   frame_check(f, b,
               correlation_count(n, x, box, rmax, set->bins, pairs, expected));
-  puts("t\tr\tg\tpairs\texpected\tcoordination");
+  table_frame(table, TABLE_BLOCKS, "t\tr\tg\tpairs\texpected\tcoordination");
   double around = 0;
   for (size_t k = 0; k < set->bins; k++) {
     const double width = rmax / (double)set->bins;
@@ -47,13 +48,13 @@ static void print_frame(const struct frames *f, const struct gr *set,
                          (gsl_pow_3((double)k + 1) - gsl_pow_3((double)k)) *
                          gsl_pow_3(width);
     around += g * shell * ((double)n - 1) / box_volume(box);
-    printf("%.17g", b->t);
-    put(((double)k + 0.5) * set->rmax / (double)set->bins);
-    put(g);
-    put(pairs[k]);
-    put(expected[k]);
-    put(around);
-    putchar('\n');
+    table_number(table, b->t);
+    table_number(table, ((double)k + 0.5) * set->rmax / (double)set->bins);
+    table_number(table, g);
+    table_number(table, pairs[k]);
+    table_number(table, expected[k]);
+    table_number(table, around);
+    table_end_row(table);
   }
   free(pairs);
   free(x);
@@ -61,7 +62,8 @@ static void print_frame(const struct frames *f, const struct gr *set,
 
 int verb_gr(int argc, char **argv) {
   struct gr set = {.rmax = 3, .bins = 150};
-  struct frames_options input = {0};
+  struct frames_options input = {.many = true};
+  bool mean = false;
   /* clang-format off */
   struct option_spec options[] = {
       BOX_OPTION(set.box, "centres in a box; else in the one they span"),
@@ -70,6 +72,7 @@ int verb_gr(int argc, char **argv) {
       POSITIVE("rmax", &set.rmax, "diameters", "largest distance"),
       {.name = "bins", .type = OPTION_SIZE, .value = &set.bins, .least = 1,
        .most = 1e6, .help = "of equal width from 0 to rmax"},
+      MEAN_OPTION(mean),
       FRAMES_OPTIONS(input),
       {0}};
   /* clang-format on */
@@ -89,7 +92,7 @@ int verb_gr(int argc, char **argv) {
           "should hold all centres or lie well inside: one that cuts off the\n"
           "layer at a wall finds too few spheres at its faces, and a g that\n"
           "is too large.",
-      .usage = "gr [OPTION...] [FILE]",
+      .usage = "gr [OPTION...] [FILE...]",
       .example = "settle --model basic | analyze gr > gr.tsv",
       .options = options};
   const int operand = options_parse(&program, argc, argv);
@@ -98,11 +101,11 @@ int verb_gr(int argc, char **argv) {
   struct frames frames;
   struct bed bed = {0};
   frames_open(&frames, &input, argc, argv, operand);
-  for (bool first = true; frames_next(&frames, &bed); first = false) {
-    if (!first)
-      fputs("\n\n", stdout);
-    print_frame(&frames, &set, &bed);
-  }
+  struct table table;
+  table_open(&table, &frames, mean);
+  while (frames_next(&frames, &bed))
+    print_frame(&table, &frames, &set, &bed);
+  table_close(&table);
   frames_close(&frames);
   finish_output();
   return EXIT_DONE;

@@ -108,13 +108,6 @@ void frame_box(const struct bed *b, double margin, double box[6]) {
   }
 }
 
-void put(double x) {
-  if (isnan(x))
-    fputs("\tnan", stdout);
-  else
-    printf("\t%.17g", x);
-}
-
 void *measure_alloc(size_t count, size_t size) {
   void *p = calloc(count + 1, size);
   if (!p)

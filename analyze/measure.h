@@ -58,9 +58,6 @@ void frame_check(const struct frames *f, const struct bed *b, int status);
 /* Box spanned by the centres less margin (m) on every side. */
 void frame_box(const struct bed *b, double margin, double box[6]);
 
-/* Prints a tab and a number; nan has no sign. */
-void put(double x);
-
 void *measure_alloc(size_t count, size_t size); /* zeroed; exits without */
 
 #endif

@@ -10,6 +10,7 @@
 #include "geometry/box.h"
 #include "measure.h"
 #include "program/shared_options.h"
+#include "table.h"
 #include "verbs.h"
 
 struct order {
@@ -23,10 +24,12 @@ static const char *const class_names[] = {[BOND_DISORDERED] = "disordered",
                                           [BOND_HCP] = "hcp",
                                           [BOND_BCC] = "bcc"};
 
-static void print_spheres(const struct order *set, const struct bed *b,
-                          const double box[6], const struct bond_order *o) {
-  puts("t\tid\tx\ty\tz\tr\tneighbours\tq4\tq6\tqbar4\tqbar6\twbar4\twbar6\t"
-       "class\tlike");
+static void print_spheres(struct table *table, const struct order *set,
+                          const struct bed *b, const double box[6],
+                          const struct bond_order *o) {
+  table_frame(table, TABLE_BLOCKS,
+              "t\tid\tx\ty\tz\tr\tneighbours\tq4\tq6\tqbar4\tqbar6\twbar4\t"
+              "wbar6\tclass\tlike");
   for (size_t i = 0; i < b->n; i++) {
     const double *x = b->x + 3 * i;
     if (!box_holds(box, x))
@@ -34,20 +37,23 @@ static void print_spheres(const struct order *set, const struct bed *b,
     const double numbers[] = {o[i].q4,    o[i].q6,    o[i].qbar4,
                               o[i].qbar6, o[i].wbar4, o[i].wbar6};
     const enum bond_class class = bond_order_class(&o[i], set->least);
-    printf("%.17g\t%ld", b->t, b->id[i]);
+    table_number(table, b->t);
+    table_id(table, b->id[i]);
     for (int k = 0; k < 3; k++)
-      put(x[k]);
-    put(b->r[i]);
-    printf("\t%zu", o[i].neighbours);
+      table_number(table, x[k]);
+    table_number(table, b->r[i]);
+    table_count(table, o[i].neighbours);
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
-      put(numbers[k]);
-    printf("\t%d\t%s\n", (int)class, class_names[class]);
+      table_number(table, numbers[k]);
+    table_count(table, (size_t) class);
+    table_text(table, class_names[class]);
+    table_end_row(table);
   }
 }
 
-static void print_row(const struct order *set, const struct bed *b,
-                      const double box[6], const struct bond_order *o,
-                      bool first) {
+static void print_row(struct table *table, const struct order *set,
+                      const struct bed *b, const double box[6],
+                      const struct bond_order *o) {
   size_t n = 0, class[4] = {0};
   double sum[5] = {0};
   for (size_t i = 0; i < b->n; i++) {
@@ -61,21 +67,22 @@ static void print_row(const struct order *set, const struct bed *b,
     sum[3] += o[i].qbar4;
     sum[4] += o[i].qbar6;
   }
-  if (first)
-    puts("t\tspheres\tneighbours\tq4\tq6\tqbar4\tqbar6\tfcc\thcp\tbcc\t"
-         "disordered");
-  printf("%.17g\t%zu", b->t, n);
+  table_frame(table, TABLE_ROWS,
+              "t\tspheres\tneighbours\tq4\tq6\tqbar4\tqbar6\tfcc\thcp\tbcc\t"
+              "disordered");
+  table_number(table, b->t);
+  table_count(table, n);
   for (int k = 0; k < 5; k++)
-    put(n ? sum[k] / (double)n : GSL_NAN);
+    table_number(table, n ? sum[k] / (double)n : GSL_NAN);
   const enum bond_class columns[] = {BOND_FCC, BOND_HCP, BOND_BCC,
                                      BOND_DISORDERED};
   for (int k = 0; k < 4; k++)
-    put(n ? (double)class[columns[k]] / (double)n : GSL_NAN);
-  putchar('\n');
+    table_number(table, n ? (double)class[columns[k]] / (double)n : GSL_NAN);
+  table_end_row(table);
 }
 
-static void print_frame(const struct frames *f, const struct order *set,
-                        const struct bed *b, bool first) {
+static void print_frame(struct table *table, const struct frames *f,
+                        const struct order *set, const struct bed *b) {
   struct bond_order *o = measure_alloc(b->n, sizeof *o);
   double box[6], diameter = 0;
   for (size_t i = 0; i < b->n; i++)
@@ -86,18 +93,17 @@ static void print_frame(const struct frames *f, const struct order *set,
     memcpy(box, set->box.at, sizeof box);
   else
     frame_box(b, set->margin * diameter, box);
-  if (set->spheres && !first)
-    fputs("\n\n", stdout);
   if (set->spheres)
-    print_spheres(set, b, box, o);
+    print_spheres(table, set, b, box, o);
   else
-    print_row(set, b, box, o, first);
+    print_row(table, set, b, box, o);
   free(o);
 }
 
 int verb_order(int argc, char **argv) {
   struct order set = {.cutoff = 1.2, .margin = 0.5, .least = 0.4};
-  struct frames_options input = {0};
+  struct frames_options input = {.many = true};
+  bool mean = false;
   /* clang-format off */
   struct option_spec options[] = {
       POSITIVE("cutoff", &set.cutoff, "mean diameters",
@@ -109,6 +115,7 @@ int verb_order(int argc, char **argv) {
              "without --box: centres this far inside the box they span"),
       {.name = "spheres", .type = OPTION_FLAG, .value = &set.spheres,
        .help = "one block per frame: one row per sphere"},
+      MEAN_OPTION(mean),
       FRAMES_OPTIONS(input),
       {0}};
   /* clang-format on */
@@ -132,7 +139,7 @@ int verb_order(int argc, char **argv) {
           "spheres have a qbar6 of 0.1 to 0.3. --spheres: t id x y z r\n"
           "neighbours q4 q6 qbar4 qbar6 wbar4 wbar6 class like: the class as\n"
           "a number, 0 disordered, 1 fcc, 2 hcp, 3 bcc, and as its name.",
-      .usage = "order [OPTION...] [FILE]",
+      .usage = "order [OPTION...] [FILE...]",
       .example = "settle --model basic | analyze order",
       .options = options};
   const int operand = options_parse(&program, argc, argv);
@@ -141,8 +148,11 @@ int verb_order(int argc, char **argv) {
   struct frames frames;
   struct bed bed = {0};
   frames_open(&frames, &input, argc, argv, operand);
-  for (bool first = true; frames_next(&frames, &bed); first = false)
-    print_frame(&frames, &set, &bed, first);
+  struct table table;
+  table_open(&table, &frames, mean);
+  while (frames_next(&frames, &bed))
+    print_frame(&table, &frames, &set, &bed);
+  table_close(&table);
   frames_close(&frames);
   finish_output();
   return EXIT_DONE;

@@ -13,6 +13,7 @@
 #include "frames.h"
 #include "measure.h"
 #include "program/command_line.h"
+#include "table.h"
 #include "verbs.h"
 
 static const char *const axes[] = {"x", "y", "z", NULL};
@@ -92,8 +93,8 @@ static void add_cylinder_shell(struct areas *areas, const struct bed *b,
   areas->all = 2 * M_PI * radius * (shell.z[1] - shell.z[0]);
 }
 
-static void print_profile(const struct bed *b, const struct where *w,
-                          size_t points) {
+static void print_profile(struct table *table, const struct bed *b,
+                          const struct where *w, size_t points) {
   double *room = calloc(b->n + 1, 3 * sizeof *room);
   if (!room)
     die(EXIT_IO, "out of memory");
@@ -111,8 +112,11 @@ static void print_profile(const struct bed *b, const struct where *w,
       add_box_shell(&areas, b, w, at, room);
     else
       add_plane(&areas, b, w->axis, at, w->box, room);
-    printf("%.17g\t%.17g\t%.17g\t%.17g\n", b->t, at, areas.sum / areas.all,
-           areas.united / areas.all);
+    table_number(table, b->t);
+    table_number(table, at);
+    table_number(table, areas.sum / areas.all);
+    table_number(table, areas.united / areas.all);
+    table_end_row(table);
   }
   free(room);
 }
@@ -121,7 +125,8 @@ int verb_profile(int argc, char **argv) {
   struct option_list box = {6, {0, 1, 0, 1, 0, 1}}, cylinder = {0};
   const char *axis = "z";
   size_t points = 100;
-  struct frames_options input = {.may_be_empty = true};
+  struct frames_options input = {.may_be_empty = true, .many = true};
+  bool mean = false;
   struct where w = {0};
   /* clang-format off */
   struct option_spec options[] = {
@@ -139,6 +144,7 @@ int verb_profile(int argc, char **argv) {
                "to R"},
       {.name = "points", .type = OPTION_SIZE, .value = &points, .least = 1,
        .most = 1e8, .help = "rows per frame, at the middles of equal parts"},
+      MEAN_OPTION(mean),
       FRAMES_OPTIONS(input),
       {0}};
   /* clang-format on */
@@ -149,7 +155,7 @@ int verb_profile(int argc, char **argv) {
           "about it:\ntime (s), place (m), sum of the spheres' areas and "
           "their union, each by the\narea. Exact. An empty line separates "
           "frames.",
-      .usage = "profile [OPTION...] [FILE]",
+      .usage = "profile [OPTION...] [FILE...]",
       .example = "settle | analyze profile --from-wall 0.4",
       .options = options};
   const int operand = options_parse(&program, argc, argv);
@@ -172,15 +178,18 @@ int verb_profile(int argc, char **argv) {
   struct frames frames;
   struct bed bed = {0};
   frames_open(&frames, &input, argc, argv, operand);
-  for (bool first = true; frames_next(&frames, &bed); first = false) {
-    if (first)
-      printf("t\t%s\tsum\tunion\n", w.wall > 0   ? "distance"
-                                    : w.cylinder ? "radius"
-                                                 : axis);
-    else
-      putchar('\n');
-    print_profile(&bed, &w, points);
+  char names[40];
+  struct table table;
+  snprintf(names, sizeof names, "t\t%s\tsum\tunion",
+           w.wall > 0   ? "distance"
+           : w.cylinder ? "radius"
+                        : axis);
+  table_open(&table, &frames, mean);
+  while (frames_next(&frames, &bed)) {
+    table_frame(&table, TABLE_PARTS, names);
+    print_profile(&table, &bed, &w, points);
   }
+  table_close(&table);
   frames_close(&frames);
   finish_output();
   return EXIT_DONE;

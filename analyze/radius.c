@@ -13,6 +13,7 @@
 #include "program/command_line.h"
 #include "files/radius_keys.h"
 #include "measure/radius.h"
+#include "table.h"
 #include "verbs.h"
 #include "geometry/volume.h"
 
@@ -87,22 +88,29 @@ static struct measured measure(const struct settings *s,
   return m;
 }
 
-static void print_report(const struct settings *s, const struct scene *walls,
-                         const struct bed *b, double nominal) {
+static void print_report(struct table *table, const struct settings *s,
+                         const struct scene *walls, const struct bed *b,
+                         double nominal) {
   char last[40];
   snprintf(last, sizeof last, "fraction=%g", s->fraction);
   const char *const names[CHOICES] = {"nominal", "contact-mean", "touching",
                                       last};
   for (enum choice c = 0; c < CHOICES; c++) {
     const double r = choose(s, c, walls, b, nominal);
-    printf("%.17g\t%s", b->t, names[c]);
-    if (isnan(r)) {
-      puts("\tnan\tnan\tnan\tnan\tnan\tnan");
-      continue;
-    }
-    const struct measured m = measure(s, walls, b, r);
-    printf("\t%.17g\t%.17g\t%.17g\t%zu\t%.17g\t%.17g\n", r, m.sum, m.united,
-           m.overlaps.count, m.overlaps.mean, m.overlaps.largest);
+    table_number(table, b->t);
+    table_text(table, names[c]);
+    struct measured m = {.r = GSL_NAN};
+    if (!isnan(r))
+      m = measure(s, walls, b, r);
+    const double numbers[] = {m.r,
+                              m.sum,
+                              m.united,
+                              (double)m.overlaps.count,
+                              m.overlaps.mean,
+                              m.overlaps.largest};
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
+      table_number(table, isnan(r) ? GSL_NAN : numbers[k]);
+    table_end_row(table);
   }
 }
 
@@ -153,6 +161,7 @@ int verb_radius(int argc, char **argv) {
   const char *of = "union";
   bool report = false;
   struct frames_options input = {0};
+  bool mean = false;
   /* clang-format off */
   struct option_spec options[] = {
       {.name = "keep", .type = OPTION_TEXT, .value = &s.keep_text,
@@ -164,6 +173,7 @@ int verb_radius(int argc, char **argv) {
        .most = 6, .unit = "m", .help = "x0,x1,y0,y1,z0,z1 of fractions"},
       {.name = "report", .type = OPTION_FLAG, .value = &report,
        .help = "a table of the effect of each choice, instead of the bed"},
+      MEAN_OPTION(mean),
       FRAMES_OPTIONS(input),
       {0}};
   /* clang-format on */
@@ -192,19 +202,22 @@ int verb_radius(int argc, char **argv) {
 
   struct frames frames;
   struct bed bed = {0};
+  if (mean && !report)
+    die(EXIT_USAGE, "--mean: expected --report beside it");
+  input.many = report;
   frames_open(&frames, &input, argc, argv, operand);
+  struct table table;
+  table_open(&table, &frames, mean);
   for (bool first = true; frames_next(&frames, &bed); first = false) {
     struct bed_header header = frames_copy_header(&frames);
     struct scene walls = frame_scene(&frames, &bed);
     const double nominal = nominal_radius(&frames, &bed);
     frame_check_box(&frames, &bed, s.box);
     if (report) {
-      if (first)
-        puts("t\tkeep\tradius\tsum\tunion\toverlaps\tmean_overlap\t"
-             "largest_overlap");
-      else
-        putchar('\n');
-      print_report(&s, &walls, &bed, nominal);
+      table_frame(&table, TABLE_PARTS,
+                  "t\tkeep\tradius\tsum\tunion\toverlaps\tmean_overlap\t"
+                  "largest_overlap");
+      print_report(&table, &s, &walls, &bed, nominal);
     } else {
       rewrite(&s, &frames, &walls, &bed, &header, nominal, input.quiet);
       if (!first)
@@ -214,6 +227,7 @@ int verb_radius(int argc, char **argv) {
     scene_free(&walls);
     bed_header_free(&header);
   }
+  table_close(&table);
   if (!report)
     bed_write_status(stdout, frames_status(&frames));
   frames_close(&frames);

@@ -11,6 +11,7 @@
 #include "measure/network.h"
 #include "model/rest.h"
 #include "program/shared_options.h"
+#include "table.h"
 #include "verbs.h"
 #include "geometry/volume.h"
 
@@ -58,10 +59,12 @@ static struct energies energies(const struct frames *f, const struct scene *s,
 
 int verb_rest(int argc, char **argv) {
   struct option_list box = {6, {0, 1, 0, 1, 0, 1}};
-  struct frames_options input = {0};
+  struct frames_options input = {.many = true};
+  bool mean = false;
   /* clang-format off */
   struct option_spec options[] = {
       BOX_OPTION(box, "for the fraction"),
+      MEAN_OPTION(mean),
       FRAMES_OPTIONS(input),
       {0}};
   /* clang-format on */
@@ -84,7 +87,7 @@ int verb_rest(int argc, char **argv) {
           "own friction lets a loaded contact creep, so a bed with friction\n"
           "never stops altogether. settle looks at every step, this at the\n"
           "frames there are: have them less than 0.1 s apart.",
-      .usage = "rest [OPTION...] [FILE]",
+      .usage = "rest [OPTION...] [FILE...]",
       .example = "settle --frames 161 | analyze rest",
       .options = options};
   const int operand = options_parse(&program, argc, argv);
@@ -96,9 +99,11 @@ int verb_rest(int argc, char **argv) {
   struct rest_watch watch = {0};
   double last_t = GSL_NAN, last_union = GSL_NAN;
   frames_open(&frames, &input, argc, argv, operand);
-  for (bool first = true; frames_next(&frames, &bed); first = false) {
+  struct table table;
+  table_open(&table, &frames, mean);
+  while (frames_next(&frames, &bed)) {
     struct scene scene = frame_scene(&frames, &bed);
-    if (first)
+    if (frames.first)
       frame_warn_rewritten(&frames);
     double united;
     frame_check_box(&frames, &bed, box.at);
@@ -106,26 +111,31 @@ int verb_rest(int argc, char **argv) {
                 volume_union(bed.n, bed.x, bed.r, box.at, &united));
     const struct energies e = energies(&frames, &scene, &bed);
     const double net = unbalanced(&frames, &scene, &bed);
-    if (first)
+    if (frames.first) {
       watch = rest_watch_begin(bed.t);
+      last_t = last_union = GSL_NAN;
+    }
     const bool at_rest =
         rest_watch_see(&watch, bed.t, e.fastest, scene.law.vmin);
     const double passed = bed.t - last_t;
-    if (first)
-      puts("t\tkinetic\tpotential\tunbalanced\tfastest\tunion\trate\tat_rest");
-    printf("%.17g", bed.t);
-    put(e.kinetic);
-    put(e.potential);
-    put(net);
-    put(e.fastest / scene.law.vmin);
-    put(united / volume);
-    put(passed != 0 ? (united / volume - last_union) / passed : GSL_NAN);
-    put(at_rest ? 1 : watch.moved ? 0 : GSL_NAN);
-    putchar('\n');
+    table_frame(&table, TABLE_ROWS,
+                "t\tkinetic\tpotential\tunbalanced\tfastest\tunion\trate\t"
+                "at_rest");
+    table_number(&table, bed.t);
+    table_number(&table, e.kinetic);
+    table_number(&table, e.potential);
+    table_number(&table, net);
+    table_number(&table, e.fastest / scene.law.vmin);
+    table_number(&table, united / volume);
+    table_number(&table, passed != 0 ? (united / volume - last_union) / passed
+                                     : GSL_NAN);
+    table_number(&table, at_rest ? 1 : watch.moved ? 0 : GSL_NAN);
+    table_end_row(&table);
     last_t = bed.t;
     last_union = united / volume;
     scene_free(&scene);
   }
+  table_close(&table);
   frames_close(&frames);
   finish_output();
   return EXIT_DONE;

@@ -10,6 +10,7 @@
 #include "program/files.h"
 #include "model/bed_check.h"
 #include "files/formats.h"
+#include "files/numbers.h"
 #include "files/radius_keys.h"
 #include "program/version.h"
 
@@ -22,12 +23,14 @@ static void check_memory(int status) {
    go into the header. radius: of spheres that come without one. */
 static void read_scene(const struct settings *s, double radius, struct bed *b,
                        struct bed_header *h, const char **name) {
-  FILE *in = input_open(s->scene_file, name);
+  struct input in;
+  input_open(&in, s->scene_file);
+  *name = in.name;
   const struct bed_reader_options options = {.allow_partial = s->allow_partial,
                                              .may_be_empty = true,
                                              .radius = radius};
   struct bed_reader *reader;
-  check_memory(bed_reader_open(&reader, in, *name, &options));
+  check_memory(bed_reader_open(&reader, in.stream, *name, &options));
   struct bed frame;
   int status;
   while ((status = bed_reader_next(reader, &frame)) == GSL_SUCCESS) {
@@ -41,8 +44,10 @@ static void read_scene(const struct settings *s, double radius, struct bed *b,
     }
   }
   check_memory(status);
-  if (status != GSL_EOF)
+  if (status != GSL_EOF) {
+    input_close(&in); /* has a better reason if it cannot be unpacked */
     die(EXIT_INPUT, "%s", bed_reader_error(reader));
+  }
   if (bed_reader_note(reader))
     warn("%s", bed_reader_note(reader));
   if (!b->n)
@@ -53,8 +58,7 @@ static void read_scene(const struct settings *s, double radius, struct bed *b,
   if (!bed_reader_is_bed(reader) && !s->scene.walls_count)
     warn("%s: has no walls, expected --wall if there should be any", *name);
   bed_reader_close(reader);
-  if (in != stdin)
-    fclose(in);
+  input_close(&in);
   const double r = radius_dynamics(h);
   if (r < 0)
     die(EXIT_INPUT, "%s: radius_dynamics=%s: expected a number above 0", *name,
@@ -157,8 +161,14 @@ static void write_header(struct settings *s, const struct option_spec *options,
   }
   for (size_t k = 0; k < s->scene.walls_count; k++) {
     const double *p = s->scene.walls[k].point, *n = s->scene.walls[k].normal;
-    snprintf(text, sizeof text, "%.17g %.17g %.17g %.17g %.17g %.17g", p[0],
-             p[1], p[2], n[0], n[1], n[2]);
+    const double wall[] = {p[0], p[1], p[2], n[0], n[1], n[2]};
+    size_t used = 0;
+    for (int c = 0; c < 6; c++) {
+      char number[NUMBER_SIZE];
+      number_format(wall[c], number);
+      used += (size_t)snprintf(text + used, sizeof text - used,
+                               c ? " %s" : "%s", number);
+    }
     check_memory(bed_header_add(h, "wall", text));
   }
 }

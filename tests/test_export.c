@@ -82,6 +82,7 @@ static struct bed make_bed(void) {
                                       "1 0 0 1 0 0", "0 0 0 0 -1 0",
                                       "0 0 1 0 0 1"};
   struct bed_header header = {0};
+  CHECK(bed_header_add(&header, "format", "bed-1") == GSL_SUCCESS);
   for (int k = 0; k < 5; k++)
     CHECK(bed_header_add(&header, "wall", walls[k]) == GSL_SUCCESS);
   const int fd = mkstemp(bed_path);

@@ -133,6 +133,10 @@ bool bed_reader_is_bed(const struct bed_reader *r) {
   return r->format == &format_bed;
 }
 
+bool bed_reader_is_cut(const struct bed_reader *r) {
+  return r->cut || r->cut_noted;
+}
+
 size_t bed_reader_part(const struct bed_reader *r) {
   return r->part;
 }

@@ -44,6 +44,9 @@ const char *bed_reader_note(const struct bed_reader *r);
 /* Is it a bed as bed_io.h has them, with parameters and walls? */
 bool bed_reader_is_bed(const struct bed_reader *r);
 
+/* Did the file end too early, which allow_partial forgives? */
+bool bed_reader_is_cut(const struct bed_reader *r);
+
 /* The number of the bed that the frame just read is of, where several stand
    one behind the other, from 0. */
 size_t bed_reader_part(const struct bed_reader *r);

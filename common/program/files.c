@@ -232,19 +232,24 @@ void output_open_in(struct output_file *f, const char *folder,
   f->joined = path;
 }
 
-FILE *input_open(const char *path, const char **name) {
-  FILE *in = stdin;
-  *name = "standard input";
+void input_open(struct input *in, const char *path) {
+  FILE *stream = stdin;
+  in->name = "standard input";
   claim_standard_output();
   if (path && strcmp(path, "-")) {
     struct stat st;
-    *name = path;
-    in = fopen(path, "r");
-    if (!in)
+    in->name = path;
+    stream = fopen(path, "r");
+    if (!stream)
       die(EXIT_IO, "%s: %s", path, strerror(errno));
-    if (fstat(fileno(in), &st) == 0 && S_ISDIR(st.st_mode))
+    if (fstat(fileno(stream), &st) == 0 && S_ISDIR(st.st_mode))
       die(EXIT_IO, "%s: is a directory", path);
   }
-  claim_stream(*name, in, false);
-  return in;
+  claim_stream(in->name, stream, false);
+  unpack_open(&in->unpack, stream, in->name);
+  in->stream = in->unpack.stream;
+}
+
+void input_close(struct input *in) {
+  unpack_close(&in->unpack);
 }

@@ -6,6 +6,7 @@
 
 #include <stdint.h>
 #include <stdio.h>
+#include "program/unpack.h"
 
 /* Written beside its final name and renamed when complete; what is not a
    regular file (a pipe, /dev/null) is written directly. A symbolic link stays,
@@ -36,9 +37,17 @@ void output_folder(const char *path);
 void output_open_in(struct output_file *f, const char *folder,
                     const char *name);
 
-/* Opens FILE for reading, or standard input for "-" or NULL; exits with EXIT_IO
-   if it cannot be read, with EXIT_USAGE if it is being written as above. name
-   becomes what messages call it. */
-FILE *input_open(const char *path, const char **name);
+struct input {
+  const char *name; /* what messages call it */
+  FILE *stream;
+  struct unpack unpack;
+};
+
+/* Opens FILE for reading, or standard input for "-" or NULL; what is packed by
+   gzip, xz or zstd is unpacked. Exits with EXIT_IO if it cannot be read, with
+   EXIT_USAGE if it is being written as above. */
+void input_open(struct input *in, const char *path);
+/* Exits with EXIT_INPUT if it was packed and is not whole. */
+void input_close(struct input *in);
 
 #endif
