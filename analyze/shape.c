@@ -83,6 +83,9 @@ static void find_bridges(struct shape *s, const struct shape_options *o) {
       s->frames, b,
       solid_pairs(b->n, b->x, r, o->reach, &s->ends, &s->solid.bridges));
   free(r);
+  s->solid.ends = (const uint32_t(*)[2])s->ends;
+  s->solid.bridge_radius = o->bridge;
+  s->solid.bridges = solid_visible(&s->solid, s->ends);
 }
 
 static void shrink(struct shape *s, const struct shape_options *o) {
@@ -163,8 +166,7 @@ void shape_make(struct shape *s, const struct shape_options *o,
   memcpy(s->source_box, s->box, sizeof s->box);
   if (o->base > 0)
     s->scale = o->base / (s->box[1] - s->box[0]);
-  s->solid.ends = (const uint32_t(*)[2])s->ends;
-  s->solid.bridge_radius = s->scale * o->bridge;
+  s->solid.bridge_radius *= s->scale;
   move(s);
 }
 
@@ -212,7 +214,7 @@ void shape_measure(struct shape *s) {
     add(s, "; gap: radii times %.9g, change of the fraction %+.12g", s->factor,
         v.spheres / box - s->bare);
   if (s->solid.bridge_radius > 0)
-    add(s, "; %zu bridges: change of the fraction %+.12g +- %.1g",
+    add(s, "; bridges: %zu, change of the fraction %+.12g +- %.1g",
         s->solid.bridges, v.bridges / box, v.error / box);
 }
 

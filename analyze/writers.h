@@ -29,7 +29,7 @@ typedef void write_function(FILE *out, const struct write_frame *f,
 
 write_function write_bed, write_positions, write_csv, write_xyz, write_lammps,
     write_lammps_data, write_vtp, write_stl, write_vti, write_raw,
-    write_palabos;
+    write_palabos, write_geo;
 
 /* Formats of several files: path is what --output says, a folder or a file.
    They exit with one line where something cannot be written. */

@@ -189,7 +189,7 @@ export_ --format lammps "$T/cut" >"$T/out" 2>/dev/null
 check 'a cut film is not exported as a whole one' [ $? = 3 ]
 
 # memory and disk that do not suffice
-for format in positions csv xyz lammps lammps-data vtp stl vti raw palabos bed; do
+for format in positions csv xyz lammps lammps-data vtp stl vti raw palabos bed geo; do
   export_ --quiet --format $format "$T/film" 2>"$T/err" >/dev/full
   check "a full disk: $format" [ $? = 1 ]
   check "a full disk: $format says so" grep -q 'No space left' "$T/err"

@@ -318,7 +318,7 @@ check 'xyz with a note is read again' [ "$("$B/analyze" "$T/apart.xyz" |
 # two that touch: pi X^4/(2 r) to the leading order, here to all of them
 printf 'x,y,z,r\n.3,.5,.5,.2\n.7,.5,.5,.2\n' >"$T/pair.csv"
 hand --format raw --cells 50 --bridge 0.1 "$T/pair.csv" >"$T/raw"
-near 'bridge: one' "$(sed -n 's/.*; \([0-9]*\) bridges.*/\1/p' "$T/said")" 1 0
+near 'bridge: one' "$(sed -n 's/.*bridges: \([0-9]*\),.*/\1/p' "$T/said")" 1 0
 near 'bridge: its collar' "$(stated 'change of the fraction')" \
   "$(awk 'BEGIN {r = 0.2; x = 0.1; pi = atan2(0, -1); s = sqrt(r * r - x * x)
     cap = pi * (r - s) ^ 2 * (2 * r + s) / 3
@@ -374,6 +374,32 @@ refuse 'walls beyond the box' 3 '--walls: none is within --box' --format raw \
   --walls --box 0.1,0.9,0.1,0.9,0.1,0.9 "$T/bed"
 refuse 'thickness alone' 2 '--thickness: expected --walls' --format raw \
   --thickness 0.1 "$T/bed"
+
+# --- gmsh --------------------------------------------------------------------
+geo() { # FILE: its spheres as a table
+  echo x,y,z,r
+  sed -n 's/^Sphere([0-9]*) = {\(.*\)};$/\1/p' "$1" | tr -d ' '
+}
+hand --format geo --scale 2 --offset 1,0,0 "$T/geometry" >"$T/geo"
+geo "$T/geo" >"$T/geo.csv"
+near 'geo: its spheres are the solid' "$(union --box 1,3,0,2,0,2 "$T/geo.csv")" \
+  "$(stated 'solid fraction')" 1e-12
+check 'geo: its box' grep -q '^Box(1) = {1, 0, 0, 2, 2, 2};$' "$T/geo"
+check 'geo: numbers from 2 on' awk -F '[()]' '/^Sphere/ {if ($2 != ++n + 1)
+  bad = 1} /Volume{2:/ {split($0, f, /2:|}/); if (index($0, "2:" n + 1 "}") == 0)
+  bad = 1} END {exit bad || n < 100}' "$T/geo"
+check 'geo: seven named surfaces and the pore' [ "$(grep -c '^ *Physical' \
+  "$T/geo")" = 8 ]
+hand --format geo --bridge 0.03 "$T/touching" >"$T/geo"
+check 'geo: bridges' [ "$(grep -c '^Cylinder' "$T/geo")" -gt 300 ]
+hand --format geo "$T/pair.csv" >"$T/geo"
+check 'geo: nothing to say of spheres apart' [ "$(wc -l <"$T/said")" = 1 ]
+printf 'x,y,z,r\n.3,.5,.5,.2\n.7,.5,.5,.2\n' >"$T/pair.csv"
+hand --format geo "$T/pair.csv" >"$T/geo"
+check 'geo: spheres that just touch' grep -q '1 pair of spheres touch' "$T/said"
+refuse 'geo: beads too small for its tolerance' 3 'tolerance of 1e-07: --scale' \
+  --format geo --scale 0.0001 "$T/bed"
+refuse 'geo: walls' 2 '--walls: not for --format geo' --format geo --walls "$T/bed"
 
 # --- surfaces ----------------------------------------------------------------
 hand --format stl --merged --cells 60 "$T/bed" >"$T/stl"

@@ -134,7 +134,12 @@ static void test_crossing(gsl_rng *rng) {
                     .ends = (const uint32_t(*)[2])ends,
                     .bridge_radius = 0.1};
   static const double unit[6] = {0, 1, 0, 1, 0, 1};
+  const size_t visible = solid_visible(&s, ends);
+  CHECK(visible < bridges);
+  const struct solid_volume all = measured(&s, unit);
+  s.bridges = bridges = visible;
   const struct solid_volume v = measured(&s, unit);
+  CHECK(v.bridges == all.bridges);
   CHECK(v.bridges > 0.005 && v.error > 0 && v.error < 1e-9);
   struct solid spheres = s;
   spheres.bridges = 0;

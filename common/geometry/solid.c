@@ -352,6 +352,18 @@ int solid_pairs(size_t n, const double *x, const double *r, double reach,
   return status;
 }
 
+size_t solid_visible(const struct solid *s, uint32_t (*ends)[2]) {
+  size_t count = 0;
+  for (size_t k = 0; k < s->bridges; k++) {
+    struct collar c;
+    const uint32_t pair[2] = {s->ends[k][0], s->ends[k][1]};
+    if (collar_of(s, k, &c) == GSL_SUCCESS && !(c.inner < c.outer))
+      continue;
+    memcpy(ends[count++], pair, sizeof pair);
+  }
+  return count;
+}
+
 int solid_shrink(size_t n, const double *x, const double *r, double gap,
                  double *factor) {
   struct neighbors nb = {0};

@@ -54,6 +54,11 @@ int solid_diffuse(size_t n, const double *x, const double *r,
 int solid_pairs(size_t n, const double *x, const double *r, double reach,
                 uint32_t (**ends)[2], size_t *count);
 
+/* Moves the bridges that add anything to the spheres to the front of ends,
+   which s->ends may be, in their order; how many. Others lie within the circle
+   in which their spheres meet. */
+size_t solid_visible(const struct solid *s, uint32_t (*ends)[2]);
+
 /* The factor, at most 1, that makes no two spheres nearer than gap (m) if every
    radius is multiplied by it. Returns GSL_SUCCESS, GSL_EDOM if there is none
    above 0, GSL_EINVAL, GSL_ENOMEM. */

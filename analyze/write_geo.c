@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* gmsh, by its OpenCASCADE kernel: the pore as a box less spheres and bridges,
+   with names for its surfaces. Everything is exact there, too, but for a
+   tolerance of 1e-7 in the units written. */
+#include <math.h>
+#include <stdlib.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_math.h>
+#include "files/numbers.h"
+#include "geometry/box.h"
+#include "geometry/neighbors.h"
+#include "measure.h"
+#include "program/options.h"
+#include "program/version.h"
+#include "writers.h"
+
+/* Points that OpenCASCADE takes as one (Precision::Confusion). */
+static const double tolerance = 1e-7;
+
+static void put_list(FILE *out, size_t count, const double *x) {
+  char text[NUMBER_SIZE];
+  for (size_t i = 0; i < count; i++) {
+    number_format(x[i], text);
+    fprintf(out, i ? ", %s" : "%s", text);
+  }
+  fputs("};\n", out);
+}
+
+/* Pairs for which it cannot be told whether they touch. */
+static size_t undecided(const struct shape *s) {
+  const struct bed *b = &s->bed;
+  struct neighbors nb = {0};
+  frame_check(s->frames, s->source,
+              neighbors_find(&nb, b->n, b->x, 3, b->r, tolerance));
+  size_t count = 0;
+  for (size_t p = 0; p < nb.count; p++) {
+    double d[3];
+    vec3_sub(b->x + 3 * (size_t)nb.i[p], b->x + 3 * (size_t)nb.j[p], d);
+    count += fabs(vec3_norm(d) - b->r[nb.i[p]] - b->r[nb.j[p]]) <= tolerance;
+  }
+  neighbors_free(&nb);
+  return count;
+}
+
+static void check(struct shape *s) {
+  char why[200];
+  const double least = shape_least_radius(s);
+  if (least < 1000 * tolerance) {
+    snprintf(
+        why, sizeof why,
+        "a radius of %g; gmsh's kernel has a tolerance of %g: --scale 1000 "
+        "makes mm",
+        least, tolerance);
+    frame_refuse(s->frames, s->source, why);
+  }
+  const size_t pairs = undecided(s);
+  if (pairs)
+    shape_add(s,
+              "%zu pair%s of spheres touch to %g, which gmsh's kernel cannot "
+              "tell from a gap: --gap or --bridge",
+              pairs, pairs == 1 ? "" : "s", tolerance);
+}
+
+/* Writes the spheres and bridges that reach into the box, as volumes from 2 on;
+   the last one's number. */
+static size_t write_tools(FILE *out, const struct shape *s) {
+  const struct bed *b = &s->bed;
+  size_t last = 1;
+  for (size_t i = 0; i < b->n; i++) {
+    const double *x = b->x + 3 * i;
+    if (box_misses_ball(s->box, x, b->r[i]))
+      continue;
+    fprintf(out, "Sphere(%zu) = {", ++last);
+    put_list(out, 4, (double[]){x[0], x[1], x[2], b->r[i]});
+  }
+  for (size_t k = 0; k < s->solid.bridges; k++) {
+    const double *p = b->x + 3 * (size_t)s->ends[k][0];
+    const double *q = b->x + 3 * (size_t)s->ends[k][1];
+    double middle[3], d[3];
+    vec3_sub(q, p, d);
+    for (int m = 0; m < 3; m++)
+      middle[m] = p[m] + d[m] / 2;
+    if (box_misses_ball(s->box, middle,
+                        hypot(vec3_norm(d) / 2, s->solid.bridge_radius)))
+      continue;
+    fprintf(out, "Cylinder(%zu) = {", ++last);
+    put_list(
+        out, 7,
+        (double[]){p[0], p[1], p[2], d[0], d[1], d[2], s->solid.bridge_radius});
+  }
+  return last;
+}
+
+void write_geo(FILE *out, const struct write_frame *f,
+               const struct write_options *o) {
+  (void)o;
+  static const char *const faces[6] = {"xmin", "xmax", "ymin",
+                                       "ymax", "zmin", "zmax"};
+  struct shape *s = f->shape;
+  const double *box = s->box;
+  check(s);
+  shape_measure(s);
+  fprintf(out,
+          "// analyze export " DEM_VERSION "\n// %s\n"
+          "// gmsh -3 makes a mesh of the pore\n"
+          "SetFactory(\"OpenCASCADE\");\n"
+          "h = ",
+          s->statement);
+  char text[NUMBER_SIZE];
+  number_format(shape_least_radius(s) / 4, text);
+  fprintf(out, "%s; // the longest edges\nBox(1) = {", text);
+  put_list(out, 6,
+           (double[]){box[0], box[2], box[4], box[1] - box[0], box[3] - box[2],
+                      box[5] - box[4]});
+  const size_t last = write_tools(out, s);
+  if (last > 1)
+    fprintf(out,
+            "pore() = BooleanDifference{ Volume{1}; Delete; }"
+            "{ Volume{2:%zu}; Delete; };\n",
+            last);
+  else
+    fprintf(out, "pore() = {1};\n");
+  fprintf(out, "Physical Volume(\"pore\") = {pore()};\n"
+               "solid() = Boundary{ Volume{pore()}; };\n");
+  for (int k = 0; k < 6; k++) {
+    double face[6];
+    for (int m = 0; m < 6; m++)
+      face[m] = box[m];
+    face[k ^ 1] = box[k];
+    fprintf(out, "%s() = Surface In BoundingBox{", faces[k]);
+    /* the least corner, then the greatest, with a bit to spare */
+    double corners[6];
+    for (int m = 0; m < 3; m++) {
+      const double spare = 1e-4 * (box[2 * m + 1] - box[2 * m]);
+      corners[m] = face[2 * m] - spare;
+      corners[3 + m] = face[2 * m + 1] + spare;
+    }
+    put_list(out, 6, corners);
+    fprintf(out,
+            "solid() -= %s();\n"
+            "If (#%s() > 0)\n  Physical Surface(\"%s\") = {%s()};\nEndIf\n",
+            faces[k], faces[k], faces[k], faces[k]);
+  }
+  fprintf(out, "If (#solid() > 0)\n"
+               "  Physical Surface(\"spheres\") = {solid()};\nEndIf\n"
+               "Mesh.CharacteristicLengthMax = h;\n"
+               "Mesh.CharacteristicLengthMin = h / 10;\n");
+}
