@@ -150,16 +150,22 @@ int verb_fraction(int argc, char **argv) {
       FRAMES_OPTIONS(input),
       {0}};
   /* clang-format on */
-  const struct program program = {
-      .name = "analyze",
-      .summary =
-          "Share of a box that the spheres fill, one row per frame: time (s),\n"
-          "sum of the volumes of the clipped spheres and volume of their\n"
-          "union, each divided by that of the box. With many boxes or slabs\n"
-          "an empty line separates frames.",
-      .usage = "[fraction] [OPTION...] [FILE...]",
-      .example = "settle --model basic --seed 3 | analyze",
-      .options = options};
+  char summary[1200], formats[800];
+  frames_formats(formats, sizeof formats);
+  snprintf(
+      summary, sizeof summary,
+      "Share of a box that the spheres fill, one row per frame: time (s),\n"
+      "sum of the volumes of the clipped spheres and volume of their\n"
+      "union, each divided by that of the box. With many boxes or slabs\n"
+      "an empty line separates frames. All verbs read, by content:%s\n"
+      "packed by gzip, xz or zstd, too.",
+      formats);
+  const struct program program = {.name = "analyze",
+                                  .summary = summary,
+                                  .usage = "[fraction] [OPTION...] [FILE...]",
+                                  .example =
+                                      "settle --model basic --seed 3 | analyze",
+                                  .options = options};
   const int operand = options_parse(&program, argc, argv);
   if (boxes_file && (option_find(options, "box")->given ||
                      option_find(options, "until")->given ||

@@ -3,6 +3,7 @@
 #include "frames.h"
 
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 #include <gsl/gsl_errno.h>
@@ -44,6 +45,18 @@ void frames_open(struct frames *f, const struct frames_options *o, int argc,
 
 bool frames_several(const struct frames *f) {
   return f->count > 1;
+}
+
+bool frames_are_beds(const struct frames *f) {
+  return bed_reader_is_bed(f->reader);
+}
+
+void frames_formats(char *text, size_t size) {
+  size_t used = 0;
+  text[0] = 0;
+  for (size_t k = 0; bed_format_name(k) && used < size; k++)
+    used += (size_t)snprintf(text + used, size - used, "\n  %-12s %s",
+                             bed_format_name(k), bed_format_help(k));
 }
 
 /* The next frame of the file that is open, an empty one too. */

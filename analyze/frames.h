@@ -54,6 +54,12 @@ void frames_open(struct frames *f, const struct frames_options *o, int argc,
 /* Is there more than one operand? */
 bool frames_several(const struct frames *f);
 
+/* Is the file at hand in our own format, with parameters and walls? */
+bool frames_are_beds(const struct frames *f);
+
+/* A line for each format that is read, for a help text. */
+void frames_formats(char *text, size_t size);
+
 /* The next frame, which takes the place of b's last one; those without spheres
    are passed over unless they may be empty. False at the end of the last file;
    exits with one line on bad input. What is no error but should be known goes

@@ -20,7 +20,8 @@
 void box_check(const struct option_list *box);
 
 /* The scene of the frame just read, to be freed: its header's keys over
-   settle's defaults. Exits with EXIT_INPUT on a bad key. */
+   settle's defaults. Warns of a format that has no scene. Exits with EXIT_INPUT
+   on a bad key. */
 struct scene frame_scene(const struct frames *f, const struct bed *b);
 
 /* Warns if the frame's radius is not that of the dynamics, since forces then

@@ -63,6 +63,8 @@ void write_bed(FILE *out, const struct write_frame *f,
   const char *note = shape_note(s);
   if (note)
     note_gap(s, &header);
+  if (!frames_are_beds(s->frames))
+    warn("%s: has no walls: the bed has none", s->frames->name);
   bed_write_frame(out, &header, f->bed, true);
   bed_write_status(out, frames_status(s->frames));
   bed_header_free(&header);

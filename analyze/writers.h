@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The writers of export, one file per format, write_*.c. Each writes one frame
    to an open stream and leaves errors in ferror(out). Binary numbers are
-   little-endian, text has 17 digits. */
+   little-endian, text reads back the same. */
 #ifndef WRITERS_H
 #define WRITERS_H
 

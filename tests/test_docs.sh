@@ -195,7 +195,7 @@ provide() { # COMMAND
     analyze export --format csv bed.tsv | tr , ' ' |
       awk 'NR > 1 { print $2, $3, $4, $5, 2 * $6 }' > plain.txt
     ;;
-  *' run.csv.gz '*)
+  *' run.csv.gz'*)
     analyze export --format csv bed.tsv | gzip > run.csv.gz
     ;;
   esac

@@ -133,6 +133,46 @@ refuses cut.data '13: .*another velocity is expected'
 reads cut.data '0 2' --allow-partial
 says cut.data '13: cut short: 2 of 2 spheres'
 
+# --- scenes: any format, and what it has not is said ----------------------------
+scene() { # FILE OPTION...: two spheres, 5 apart, fall freely for 0.1 s
+  "$B/settle" --quiet --time 0.1 --scene "$cases/$1" "${@:2}" >"$T/out" \
+    2>"$T/err"
+  check "$1: a scene: status $?" test $? = 0
+  check "$1: a scene: both fell" awk -F '\t' '
+    /^id/ {for (k = 1; k <= NF; k++) at[$k] = k; next}
+    /^[0-9]/ {n++; d = $at["z"] + 0.5 * 9.81 * 0.01
+      if (d > 1e-9 || -d > 1e-9 || $at["r"] != 1) bad = 1}
+    END {exit bad || n != 2}' "$T/out"
+  check "$1: a scene: no walls, and that is said" grep -q \
+    "^settle: $cases/$1: has no walls" "$T/err"
+}
+for f in paraview.csv title-and-units.csv excel.csv text-ids.csv; do
+  scene $f
+done
+scene positions.txt --radius 1
+"$B/settle" --time 0.1 --scene $cases/positions.txt >"$T/out" 2>"$T/err"
+check "a scene without a radius: status $?" test $? = 3
+"$B/settle" --quiet --time 0.1 --scene $cases/sphere.data --wall 0,0,-5,0,0,-1 \
+  >"$T/out" 2>"$T/err"
+check "a scene with --wall: status $?" test $? = 0 -a ! -s "$T/err"
+check 'a scene with --wall: it is in the header' grep -qx '# wall=0 0 -5 0 0 -1' \
+  "$T/out"
+for verb in contacts rest; do
+  "$B/analyze" $verb $cases/paraview.csv >"$T/out" 2>"$T/err"
+  check "$verb: no walls" test "$(grep -c 'paraview.csv: has no walls' \
+    "$T/err")" = 1
+done
+"$B/analyze" export --format bed --quiet $cases/paraview.csv >"$T/bed" \
+  2>"$T/err"
+check 'export --format bed: no walls' grep -q 'paraview.csv: has no walls' \
+  "$T/err"
+check 'a bed of it' test "$("$B/analyze" $box "$T/bed" | tail -n 1)" = \
+  "$("$B/analyze" $box $cases/paraview.csv | tail -n 1)"
+printf '# format=bed-1\n# t=0\nx\ty\tz\tr\n0\t0\t0\t1\n# status=ok\n' \
+  >"$T/none"
+"$B/analyze" contacts "$T/none" >"$T/out" 2>"$T/err"
+check 'our own without walls: as it says' test ! -s "$T/err"
+
 # --- options ------------------------------------------------------------------
 for list in x,y x,y,z,q x,y,z,T x,x,y,z ''; do
   "$B/analyze" --columns "$list" $cases/positions.txt >"$T/out" 2>"$T/err"

@@ -219,7 +219,7 @@ static int next_bed(struct bed_reader *r, struct bed *b) {
 
 const struct bed_format format_bed = {
     .name = "bed",
-    .help = "our own: '# format=bed-1', parameters, rows of spheres",
+    .help = "our own: '# format=bed-1', parameters, walls, spheres",
     .begins = begins_bed,
     .state_size = sizeof(struct bed_state),
     .next = next_bed};

@@ -275,8 +275,7 @@ static int next_table(struct bed_reader *r, struct bed *b) {
 
 const struct bed_format format_table = {
     .name = "table",
-    .help = "a line of names, a row for each sphere; separated by tabs, "
-            "semicolons, commas or blanks",
+    .help = "names and rows, by tabs, semicolons, commas or blanks",
     .begins = begins_table,
     .quotes = true,
     .state_size = sizeof(struct table_state),
