@@ -8,6 +8,7 @@ call "style.gp" "bench/scaling.gp IN OUT" ARG2 ARG1
 
 set logscale x
 set yrange [0:*]
+set offsets 0,0,graph 0.1,0
 set xlabel "spheres"
 set ylabel "time per sphere and evaluation (ns)"
 plot ARG1 using "spheres":"ns_per_sphere_and_evaluation" with linespoints \

@@ -37,8 +37,8 @@ cell_height = 0.165
 do for [t=1:2] {
   target = word("sphere wall", t)
   top = t == 1 ? 0.93 : 0.44
-  set label 1 (t == 1 ? "another sphere: missed (%)" : \
-    "a wall: wrong speed or gave up (%)") at screen 0.55, top + 0.045 center
+  heading = (t == 1 ? "another sphere: missed (%)" : \
+    "a wall: wrong speed or gave up (%)")
   do for [i=1:6] {
     m = word(methods, i)
     x = 0.165 + ((i - 1) % 3)*(cell_width + 0.005)
@@ -52,12 +52,14 @@ do for [t=1:2] {
     unset ytics
     unset xlabel
     unset ylabel
+    unset label
+    if (i == 1) { set label 1 heading at screen 0.55,top + 0.045 center }
     if ((i - 1) % 3 == 0) {
       set ytics ()
       do for [k=1:words(tols)] {
         set ytics add (word(tols, k) k)
       }
-      set ylabel "tolerance" offset 0.5,0
+      set ylabel "tolerance (m/s)" offset 0.5,0
     }
     if (i > 3) {
       set xtics () offset 0,0.5
@@ -72,7 +74,7 @@ do for [t=1:2] {
       ARG1 using (row(m, target) ? index_of(speeds, strcol("speed")) : \
         NaN):(index_of(tols, strcol("tol"))): \
         (sprintf("%.0f", 100*lost(target))) with labels \
-        font sprintf(",%d", 13)
+        font ",16"
   }
 }
 unset multiplot
