@@ -24,6 +24,7 @@ static const struct format {
   write_function *write;
   write_files_function *write_files; /* or this, for several files */
   double base;                       /* its side, unless --scale says more */
+  double cells;                      /* that --cells has unless it is given */
   bool binary;                       /* nothing for a terminal */
   bool many;                         /* frames in one file */
   bool series;                       /* ParaView's .pvd lists such files */
@@ -85,6 +86,11 @@ static const struct format {
      .help = "gmsh script: the pore, a box less spheres, named surfaces",
      .takes = "scale offset box bridge reach",
      .write = write_geo},
+    {.name = "openfoam",
+     .help = "folder for blockMesh and snappyHexMesh",
+     .takes = "scale offset box cells facets bridge reach",
+     .write_files = write_openfoam,
+     .cells = 40},
     {.name = "freezethaw",
      .help = "folder for the paper's solver: positions, a part of Params",
      .takes = "scale offset box",
@@ -365,7 +371,7 @@ int verb_export(int argc, char **argv) {
        .unit = "m, 0: as the least radius; with --box: up to its faces",
        .help = "of walls"},
       {.name = "cells", .type = OPTION_LIST, .value = &cells, .least = 1,
-       .most = 3, .unit = "N or NX,NY,NZ", .help = "voxels, or of --merged along its longest side"},
+       .most = 3, .unit = "N or NX,NY,NZ", .help = "voxels; of surfaces along the longest side, openfoam: 40"},
       {.name = "binary", .type = OPTION_FLAG, .value = &q.write.binary,
        .help = "voxels: 1 where the midpoint is solid, else 0; a byte each"},
       {.name = "distance", .type = OPTION_FLAG, .value = &q.write.distance,
@@ -411,6 +417,8 @@ int verb_export(int argc, char **argv) {
   if (q.chosen && which)
     die(EXIT_USAGE, "--frame and --frames: expected one of them");
   q.all = which ? !strcmp(which, "all") : q.format->many && !q.chosen;
+  if (!strcmp(format, "openfoam") && cells.count > 1)
+    die(EXIT_USAGE, "--cells: expected N, along the longest side");
   if (q.write.merged && (option_find(options, "facets")->given ||
                          q.write.equal_volume || cells.count > 1))
     die(EXIT_USAGE, "--merged: expected --cells N, no facets of spheres");
@@ -433,6 +441,8 @@ int verb_export(int argc, char **argv) {
   q.shape.gap_given = option_find(options, "gap")->given;
   memcpy(q.shape.box, box.at, sizeof q.shape.box);
   memcpy(q.shape.offset, offset.at, sizeof q.shape.offset);
+  if (q.format->cells > 0 && !option_find(options, "cells")->given)
+    cells.at[0] = q.format->cells;
   take_cells(&cells, q.write.cells);
   q.write.threads = system_threads(q.write.threads);
   if (q.format->write_files && !q.output)

@@ -36,7 +36,7 @@ write_function write_bed, write_positions, write_csv, write_xyz, write_lammps,
 typedef void write_files_function(const char *path, const struct write_frame *f,
                                   const struct write_options *o);
 
-write_files_function write_freezethaw, write_mhd;
+write_files_function write_freezethaw, write_mhd, write_openfoam;
 
 /* count numbers of size bytes each, little-endian. */
 void write_little_endian(FILE *out, const void *data, size_t size,

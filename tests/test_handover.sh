@@ -401,6 +401,33 @@ refuse 'geo: beads too small for its tolerance' 3 'tolerance of 1e-07: --scale' 
   --format geo --scale 0.0001 "$T/bed"
 refuse 'geo: walls' 2 '--walls: not for --format geo' --format geo --walls "$T/bed"
 
+# --- OpenFOAM ----------------------------------------------------------------
+check 'openfoam' hand --format openfoam --output "$T/foam" --scale 0.5 \
+  --offset 1,0,0 --bridge 0.02 "$T/geometry"
+check 'openfoam: its files' [ "$(cd "$T/foam" && find . -type f | sort |
+  tr '\n' ' ')" = './constant/triSurface/spheres.stl ./system/blockMeshDict ./system/controlDict ./system/fvSchemes ./system/fvSolution ./system/snappyHexMeshDict ' ]
+hand --format stl --equal-volume --scale 0.5 --offset 1,0,0 --bridge 0.02 \
+  "$T/geometry" >"$T/stl"
+check 'openfoam: the surface' cmp -s "$T/stl" \
+  "$T/foam/constant/triSurface/spheres.stl"
+check 'openfoam: the block' [ "$(sed -n '/^vertices/,/^edges/p' \
+  "$T/foam/system/blockMeshDict" | tr -d '\n')" = 'vertices(    (1 0 0)    (1.5 0 0)    (1.5 0.5 0)    (1 0.5 0)    (1 0 0.5)    (1.5 0 0.5)    (1.5 0.5 0.5)    (1 0.5 0.5));blocks(    hex (0 1 2 3 4 5 6 7) (40 40 40) simpleGrading (1 1 1));edges ();' ]
+hand --format csv --scale 0.5 --offset 1,0,0 "$T/geometry" >"$T/m"
+check 'openfoam: a point in the pore' awk -F , -v p="$(sed -n \
+  's/^ *locationInMesh (\(.*\));/\1/p' "$T/foam/system/snappyHexMeshDict")" '
+  BEGIN {if (split(p, x, " ") != 3 || x[1] <= 1 || x[1] >= 1.5) exit 1
+    least = 1
+    for (k = 2; k <= 3; k++) if (x[k] <= 0 || x[k] >= 0.5) exit 1}
+  FNR > 1 {d = -$6; s = 0; for (k = 1; k <= 3; k++) s += (x[k] - $(k + 2)) ^ 2
+    d += sqrt(s); if (d < least) least = d}
+  END {exit !(least > 0.01)}' "$T/m"
+printf 'x,y,z,r\n.5,.5,.5,2\n' >"$T/full.csv"
+refuse 'openfoam: no pore' 3 'no point of the box is in the pore' \
+  --format openfoam --output "$T/none3" "$T/full.csv"
+check 'openfoam: a refusal leaves no folder' [ ! -e "$T/none3" ]
+refuse 'openfoam: three numbers of cells' 2 '--cells: expected N, along' \
+  --format openfoam --output "$T/none3" --cells 4,4,4 "$T/bed"
+
 # --- surfaces ----------------------------------------------------------------
 hand --format stl --merged --cells 60 "$T/bed" >"$T/stl"
 near 'merged: the volume is as stated' "$(stated 'volume')" \

@@ -9,6 +9,7 @@
 #include <gsl/gsl_rng.h>
 #include "check.h"
 #include "geometry/box.h"
+#include "geometry/clearance.h"
 #include "geometry/solid.h"
 #include "geometry/volume.h"
 
@@ -302,6 +303,63 @@ static void test_diffuse(gsl_rng *rng) {
   CHECK(solid_diffuse(N, x, r, unit, 0, &sharp) == GSL_EINVAL);
 }
 
+static double distance_to(const struct solid *s, const double box[6],
+                          const double p[3]) {
+  double d = solid_beyond_distance(box, p);
+  if (s->container)
+    d = fmin(d, solid_beyond_distance(s->container, p));
+  for (size_t i = 0; i < s->n; i++)
+    d = fmin(d, solid_ball_distance(s->x + 3 * i, s->r[i], p));
+  for (size_t b = 0; b < s->bridges; b++)
+    d = fmin(d, solid_cylinder_distance(s->x + 3 * s->ends[b][0],
+                                        s->x + 3 * s->ends[b][1],
+                                        s->bridge_radius, p));
+  return d;
+}
+
+/* The deepest point of a grid's, which is no more than half a diagonal off. */
+static void test_clearance(gsl_rng *rng) {
+  enum { N = 30, CELLS = 40 };
+  static const double unit[6] = {0, 1, 0, 1, 0, 1};
+  static const double container[6] = {0.1, 0.8, 0, 1, 0, 1};
+  double x[3 * N], r[N], p[3], depth = GSL_NAN;
+  for (int m = 0; m < 6; m++) {
+    for (size_t i = 0; i < N; i++) {
+      r[i] = 0.1 + 0.1 * gsl_rng_uniform(rng);
+      for (int k = 0; k < 3; k++)
+        x[3 * i + (size_t)k] = gsl_rng_uniform(rng);
+    }
+    uint32_t(*ends)[2] = NULL;
+    struct solid s = {.n = N,
+                      .x = x,
+                      .r = r,
+                      .bridge_radius = 0.07,
+                      .container = m % 2 ? container : NULL};
+    CHECK(solid_pairs(N, x, r, 0.1, &ends, &s.bridges) == GSL_SUCCESS);
+    s.ends = (const uint32_t(*)[2])ends;
+    CHECK(clearance_deepest(&s, unit, p, &depth) == GSL_SUCCESS);
+    CHECK_CLOSE(distance_to(&s, unit, p), depth, 1e-15);
+    double best = 0;
+    for (size_t q = 0; q < CELLS * CELLS * CELLS; q++) {
+      const double at[3] = {((double)(q % CELLS) + 0.5) / CELLS,
+                            ((double)(q / CELLS % CELLS) + 0.5) / CELLS,
+                            ((double)(q / CELLS / CELLS) + 0.5) / CELLS};
+      best = fmax(best, distance_to(&s, unit, at));
+    }
+    CHECK(depth > best / 1.01 && depth < best + sqrt(3) / 2 / CELLS);
+    free(ends);
+  }
+  /* an empty box, and a full one */
+  const struct solid none = {0};
+  CHECK(clearance_deepest(&none, unit, p, &depth) == GSL_SUCCESS);
+  CHECK(depth > 0.5 / 1.01 && depth <= 0.5);
+  static const double middle[3] = {0.5, 0.5, 0.5}, large[1] = {1};
+  const struct solid full = {.n = 1, .x = middle, .r = large};
+  CHECK(clearance_deepest(&full, unit, p, &depth) == GSL_EDOM);
+  static const double flat[6] = {0, 1, 0, 1, 1, 1};
+  CHECK(clearance_deepest(&none, flat, p, &depth) == GSL_EINVAL);
+}
+
 static void test_refusals(void) {
   static const double x[6] = {0, 0, 0, 0, 0, 2}, r[2] = {1, 0.5};
   static const uint32_t ends[1][2] = {{0, 1}};
@@ -329,6 +387,7 @@ int main(void) {
   test_primitives(rng);
   test_shrink(rng);
   test_diffuse(rng);
+  test_clearance(rng);
   test_refusals();
   gsl_rng_free(rng);
   return check_done();

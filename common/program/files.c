@@ -213,21 +213,32 @@ void output_commit(struct output_file *f) {
   free(f->joined);
 }
 
+static char *path_in(const char *folder, const char *name) {
+  char *with_slash = joined(folder, strlen(folder), "/");
+  char *path = joined(with_slash, strlen(with_slash), name);
+  free(with_slash);
+  return path;
+}
+
 void output_folder(const char *path) {
   struct stat st;
-  if (mkdir(path, 0777) == 0)
-    litter_add(path); /* no more than fails once there is something in it */
+  if (mkdir(path, 0777) == 0) /* what is in it will not be littered */
+    litter_add(joined(path, strlen(path), ""));
   else if (errno != EEXIST)
-    die(EXIT_IO, "%s: %s", path, strerror(errno));
+    cannot_write(path);
   else if (stat(path, &st) == 0 && !S_ISDIR(st.st_mode))
     die(EXIT_IO, "%s: is not a folder", path);
 }
 
+const char *output_folder_in(const char *folder, const char *name) {
+  const char *path = path_in(folder, name);
+  output_folder(path);
+  return path;
+}
+
 void output_open_in(struct output_file *f, const char *folder,
                     const char *name) {
-  char *with_slash = joined(folder, strlen(folder), "/");
-  char *path = joined(with_slash, strlen(with_slash), name);
-  free(with_slash);
+  char *path = path_in(folder, name);
   output_open(f, path);
   f->joined = path;
 }

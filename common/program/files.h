@@ -33,6 +33,9 @@ void output_commit(struct output_file *f);
    comes to be in it. Exits likewise. */
 void output_folder(const char *path);
 
+/* The same within a folder; its path, which stays. */
+const char *output_folder_in(const char *folder, const char *name);
+
 /* output_open of a file in a folder. */
 void output_open_in(struct output_file *f, const char *folder,
                     const char *name);
