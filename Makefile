@@ -95,7 +95,9 @@ $(B)/tests/%: $(O)/tests/%.o $(LIBRARY)
 # What allocates is replaced by what can fail.
 $(B)/tests/test_memory: WRAPPED := $(foreach f,malloc calloc realloc \
 	gsl_odeiv2_step_alloc gsl_odeiv2_evolve_alloc \
-	gsl_odeiv2_control_scaled_new gsl_rng_alloc gsl_rstat_quantile_alloc,-Wl,--wrap=$(f))
+	gsl_odeiv2_control_scaled_new gsl_rng_alloc gsl_rstat_quantile_alloc \
+	gsl_poly_complex_workspace_alloc gsl_root_fsolver_alloc \
+	gsl_integration_glfixed_table_alloc,-Wl,--wrap=$(f))
 
 # Those that run studies and whole beds take most of the time.
 LONG_SCRIPTS := $(wildcard tests/test_{figures,settling}.sh)
@@ -161,7 +163,7 @@ demo: all ## settle 200 spheres, print the solid fraction, draw the bed
 	$(B)/settle --seed 1 > $(B)/demo.tsv.partial
 	@mv $(B)/demo.tsv.partial $(B)/demo.tsv
 	$(B)/analyze $(B)/demo.tsv
-	gnuplot -c plots/draw/bed.gp $(B)/demo.tsv $(B)/demo.png
+	gnuplot -d -c plots/draw/bed.gp $(B)/demo.tsv $(B)/demo.png
 	@echo "the bed: $(B)/demo.tsv, its picture: $(B)/demo.png"
 
 # Man pages: each program and verb prints its own.

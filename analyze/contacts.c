@@ -52,7 +52,9 @@ static struct measured measure(const struct frames *f,
                        .scene = scene,
                        .box = set->box.count ? set->box.at : NULL,
                        .weight = total_weight(scene, b)};
-  frame_check(f, b, network_find(&m.network, scene, b, set->gap));
+  /* the pairs that can count, and all that overlap */
+  const double reach = set->force > 0 ? scene->law.lmax : GSL_MAX(set->gap, 0);
+  frame_check(f, b, network_find(&m.network, scene, b, reach));
   const double force = set->force * m.weight / (double)b->n;
   if (set->force > 0 && !(force > 0))
     frame_refuse(f, b,
@@ -248,13 +250,15 @@ static void print_overlaps(struct table *table, const struct frames *f,
   free(count);
 }
 
-static void print_network(struct table *table, const struct measured *m) {
+static void print_network(struct table *table, struct frames *f,
+                          const struct measured *m) {
   const struct bed *b = m->bed;
   table_frame(table, TABLE_BLOCKS,
               "t\ti\tj\twall\tx\ty\tz\tnormal\ttangential\tgap\tnx\tny\tnz");
   for (size_t p = 0; p < m->network.count; p++) {
     const struct network_contact *c = &m->network.at[p];
     double x[3];
+    frames_tell(f, (double)p / (double)m->network.count);
     if (!c->counts || !within(m, c))
       continue;
     network_point(c, b, x);
@@ -273,7 +277,7 @@ static void print_network(struct table *table, const struct measured *m) {
   }
 }
 
-static void print_frame(struct table *table, const struct frames *f,
+static void print_frame(struct table *table, struct frames *f,
                         const struct measured *m) {
   const struct contacts *set = m->set;
   if (set->degrees)
@@ -281,7 +285,7 @@ static void print_frame(struct table *table, const struct frames *f,
   else if (set->overlaps)
     print_overlaps(table, f, m);
   else if (set->network)
-    print_network(table, m);
+    print_network(table, f, m);
   else
     print_row(table, m);
 }
@@ -340,7 +344,8 @@ int verb_contacts(int argc, char **argv) {
           "surfaces (m), forces (N), gap (m), unit vector to sphere i.\n"
           "--gap 0.1, the default lmax, lists all contacts of the model.\n"
           "Forces come from the parameters and walls in the bed's header. A\n"
-          "bed without them has settle's defaults and no walls.",
+          "bed without them has settle's defaults, the mean radius as lmax, "
+          "and\nno walls.",
       .usage = "contacts [OPTION...] [FILE...]",
       .example = "settle --seed 3 | analyze contacts",
       .options = options};
@@ -351,11 +356,15 @@ int verb_contacts(int argc, char **argv) {
 
   struct frames frames;
   struct bed bed = {0};
+  struct box_watch watch = {0};
   frames_open(&frames, &input, argc, argv, operand);
   struct table table;
   table_open(&table, &frames, means);
   while (frames_next(&frames, &bed)) {
     struct scene scene = frame_scene(&frames, &bed);
+    if (set.box.count)
+      box_watch_see(&watch, &frames, &bed, false, 1,
+                    (const double(*)[6])set.box.at);
     if (frames.first)
       frame_warn_rewritten(&frames);
     struct measured m = measure(&frames, &set, &scene, &bed);
@@ -364,6 +373,7 @@ int verb_contacts(int argc, char **argv) {
     scene_free(&scene);
   }
   table_close(&table);
+  box_watch_end(&watch);
   frames_close(&frames);
   finish_output();
   return EXIT_DONE;

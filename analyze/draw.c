@@ -38,7 +38,7 @@ int verb_draw(int argc, char **argv) {
   if (wanted != floor(wanted))
     die(EXIT_USAGE, "--frame %g: expected a whole number", wanted);
   picture.facets = svg ? 30000 : 120000;
-  picture_begin(&picture, output);
+  picture_begin(&picture, output, input.quiet);
 
   struct frames frames;
   struct bed bed = {0}, next = {0};
@@ -60,7 +60,9 @@ int verb_draw(int argc, char **argv) {
   frames_close(&frames);
 
   const char *drawn = picture_path(&picture, svg ? "bed.svg" : "bed.png");
+  progress_name(&picture.progress, "gnuplot draws");
   picture_draw(&picture, "bed.tsv", drawn);
+  progress_end(&picture.progress);
   picture_deliver(&picture, drawn);
   return EXIT_DONE;
 }

@@ -97,19 +97,27 @@ static void set_names(const struct shown *c, char *names, size_t size) {
            c->sampled ? "\tsampled_sum\tsampled_union" : "");
 }
 
-static void print_row(struct table *table, const struct bed *bed,
+/* Box k of count. */
+static void print_row(struct table *table, struct frames *f,
+                      const struct bed *bed, size_t k, size_t count,
                       const double box[6], const struct shown *c) {
   const double volume = box_volume(box);
   double united, sampled_sum, sampled_union;
-  int status = volume_union(bed->n, bed->x, bed->r, box, &united);
+  /* marks take the time where there are any */
+  const double from = (double)k / (double)count, step = 1 / (double)count;
+  const double middle = from + (c->sampled ? 0.2 : 1) * step;
+  struct frames_part exact = {f, from, middle},
+                     marks = {f, middle, from + step};
+  const struct observer told = frames_observer(&exact),
+                        marked = frames_observer(&marks);
+  int status = volume_union_told(bed->n, bed->x, bed->r, box, &told, &united);
   if (status == GSL_SUCCESS && c->sampled)
-    status = volume_sampled(bed->n, bed->x, bed->r, box, c->sampled,
+    status = volume_sampled(bed->n, bed->x, bed->r, box, c->sampled, &marked,
                             &sampled_sum, &sampled_union);
-  if (status != GSL_SUCCESS)
-    die(EXIT_IO, "t=%g: %s", bed->t, gsl_strerror(status));
+  frame_check(f, bed, status);
   table_number(table, bed->t);
-  for (int k = 0; k < 6 && c->box; k++)
-    table_number(table, box[k]);
+  for (int face = 0; face < 6 && c->box; face++)
+    table_number(table, box[face]);
   table_number(table, volume_sum(bed->n, bed->x, bed->r, box) / volume);
   table_number(table, united / volume);
   if (c->empty)
@@ -121,8 +129,26 @@ static void print_row(struct table *table, const struct bed *bed,
   table_end_row(table);
 }
 
+/* The boxes of a frame by options: the whole box or slabs of it. */
+static void choose_boxes(struct boxes *boxes, const struct frames *f,
+                         const struct option_list *given, double until,
+                         double slab) {
+  double box[6];
+  frame_choose_box(f, given, box);
+  if (!isnan(until))
+    box[5] = until;
+  if (!box_valid(box))
+    die(EXIT_USAGE, "--until %g: expected z0 < z1, and z0 is %g", until,
+        box[4]);
+  boxes->count = 0;
+  if (slab > 0)
+    cut_slabs(boxes, box, slab);
+  else
+    boxes_add(boxes, box);
+}
+
 int verb_fraction(int argc, char **argv) {
-  struct option_list box = {6, {0, 1, 0, 1, 0, 1}};
+  struct option_list box = {0};
   struct shown columns = {0};
   const char *boxes_file = NULL;
   double until = GSL_NAN, slab = 0;
@@ -130,8 +156,7 @@ int verb_fraction(int argc, char **argv) {
   bool mean = false;
   /* clang-format off */
   struct option_spec options[] = {
-      {.name = "box", .type = OPTION_LIST, .value = &box, .least = 6,
-       .most = 6, .unit = "m", .help = "x0,x1,y0,y1,z0,z1"},
+      BOX_OPTION(box, "where" BASE_BOX),
       {.name = "boxes", .type = OPTION_TEXT, .value = &boxes_file,
        .unit = "one row per box, with its faces",
        .help = "file of boxes instead, lines of x0 x1 y0 y1 z0 z1 in m"},
@@ -171,16 +196,13 @@ int verb_fraction(int argc, char **argv) {
                      option_find(options, "until")->given ||
                      option_find(options, "slab")->given))
     die(EXIT_USAGE, "--boxes: expected no --box, --until or --slab beside it");
-  if (option_find(options, "until")->given)
+  if (box.count && !isnan(until))
     box.at[5] = until;
   box_check(&box);
   struct boxes boxes = {0};
+  struct box_watch watch = {0};
   if (boxes_file)
     read_boxes(&boxes, boxes_file);
-  else if (slab > 0)
-    cut_slabs(&boxes, box.at, slab);
-  else
-    boxes_add(&boxes, box.at);
   columns.box = boxes_file || slab > 0;
 
   struct frames frames;
@@ -191,13 +213,18 @@ int verb_fraction(int argc, char **argv) {
   set_names(&columns, names, sizeof names);
   table_open(&table, &frames, mean);
   while (frames_next(&frames, &bed)) {
+    if (!boxes_file)
+      choose_boxes(&boxes, &frames, &box, until, slab);
+    box_watch_see(&watch, &frames, &bed, !boxes_file && !box.count, boxes.count,
+                  (const double(*)[6])boxes.at);
     for (size_t k = 0; k < boxes.count; k++)
       frame_check_box(&frames, &bed, boxes.at[k]);
     table_frame(&table, columns.box ? TABLE_PARTS : TABLE_ROWS, names);
     for (size_t k = 0; k < boxes.count; k++)
-      print_row(&table, &bed, boxes.at[k], &columns);
+      print_row(&table, &frames, &bed, k, boxes.count, boxes.at[k], &columns);
   }
   table_close(&table);
+  box_watch_end(&watch);
   frames_close(&frames);
   free(boxes.at);
   finish_output();

@@ -2,13 +2,22 @@
 #define _POSIX_C_SOURCE 200809L
 #include "frames.h"
 
+#include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <gsl/gsl_errno.h>
+#include <gsl/gsl_math.h>
 #include "program/files.h"
 #include "program/command_line.h"
+
+static double bytes_of(FILE *in) {
+  struct stat st;
+  return fstat(fileno(in), &st) == 0 && S_ISREG(st.st_mode) ? (double)st.st_size
+                                                            : 0;
+}
 
 static void open_next(struct frames *f) {
   const struct frames_options *o = &f->options;
@@ -20,6 +29,8 @@ static void open_next(struct frames *f) {
   f->name = f->in.name;
   f->part = SIZE_MAX;
   f->any = false;
+  f->size = bytes_of(f->in.stream);
+  f->to = (double)(f->next - 1) / (double)GSL_MAX(f->count, 1);
   const struct bed_reader_options options = {.allow_partial = o->allow_partial,
                                              .may_be_empty = true,
                                              .radius = o->radius,
@@ -40,6 +51,7 @@ void frames_open(struct frames *f, const struct frames_options *o, int argc,
         argv[first]);
   if (o->columns && columns_of_list(&f->columns, o->columns) != GSL_SUCCESS)
     die(EXIT_USAGE, "--columns %s: %s", o->columns, f->columns.wrong);
+  f->progress = progress_begin(o->quiet);
   open_next(f);
 }
 
@@ -57,6 +69,36 @@ void frames_formats(char *text, size_t size) {
   for (size_t k = 0; bed_format_name(k) && used < size; k++)
     used += (size_t)snprintf(text + used, size - used, "\n  %-12s %s",
                              bed_format_name(k), bed_format_help(k));
+}
+
+void frames_tell(struct frames *f, double done) {
+  progress_tell(&f->progress,
+                f->size > 0 ? f->from + (f->to - f->from) * done : done);
+}
+
+static void tell_part(void *context, double done) {
+  const struct frames_part *part = context;
+  frames_tell(part->frames, part->from + (part->to - part->from) * done);
+}
+
+struct observer frames_observer(struct frames_part *part) {
+  return (struct observer){tell_part, part};
+}
+
+/* A frame has come: of a file the share is known; of a pipe each frame has a
+   clock of its own. */
+static void begin_frame(struct frames *f) {
+  f->read++;
+  f->from = f->to;
+  if (f->size > 0) {
+    const double share = fmin(1, (double)ftello(f->in.stream) / f->size);
+    f->to = ((double)(f->next - 1) + share) / (double)GSL_MAX(f->count, 1);
+    progress_name(&f->progress, "frame %zu", f->read);
+  } else {
+    progress_restart(&f->progress);
+    progress_name(&f->progress, "of frame %zu", f->read);
+  }
+  frames_tell(f, 0);
 }
 
 /* The next frame of the file that is open, an empty one too. */
@@ -85,6 +127,7 @@ bool frames_next(struct frames *f, struct bed *b) {
       f->any = true;
       f->first = f->part != bed_reader_part(f->reader);
       f->part = bed_reader_part(f->reader);
+      begin_frame(f);
       return true;
     }
     if (!f->any)
@@ -120,6 +163,7 @@ const char *frames_status(const struct frames *f) {
 }
 
 void frames_close(struct frames *f) {
+  progress_end(&f->progress);
   bed_reader_close(f->reader);
   input_close(&f->in);
 }

@@ -5,8 +5,10 @@
 
 #include <float.h>
 #include "files/formats.h"
+#include "geometry/observer.h"
 #include "program/command_line.h"
 #include "program/files.h"
+#include "program/progress.h"
 
 struct frames_options {
   bool allow_partial;  /* take what is complete of a file without a good end */
@@ -44,6 +46,10 @@ struct frames {
   struct bed_reader *reader;
   size_t part; /* of the frame before, bed_reader_part */
   bool any;    /* a frame of this file has spheres */
+  struct progress progress;
+  double size;     /* of the file (bytes); 0: nobody knows */
+  double from, to; /* the frame's share of all files */
+  size_t read;     /* frames, for the line */
 };
 
 /* Opens the operands from argv[first], or standard input. Exits with one line
@@ -76,6 +82,17 @@ struct bed_header frames_copy_header(const struct frames *f);
 /* How the input ended, for a bed made from it: what was taken as it is with
    --allow-partial stays marked. */
 const char *frames_status(const struct frames *f);
+
+/* How much of the work on this frame is done, from 0 to 1 (program/progress.h).
+   frames_next and frames_close tell by themselves. */
+void frames_tell(struct frames *f, double done);
+/* The same for a part of that work by a library's function: it takes it from
+   one share to another. */
+struct frames_part {
+  struct frames *frames;
+  double from, to;
+};
+struct observer frames_observer(struct frames_part *part);
 
 void frames_close(struct frames *f);
 

@@ -18,7 +18,7 @@ struct gr {
   size_t bins;
 };
 
-static void print_frame(struct table *table, const struct frames *f,
+static void print_frame(struct table *table, struct frames *f,
                         const struct gr *set, const struct bed *b) {
   double *x = measure_alloc(3 * b->n, sizeof *x), box[6], radius = 0;
   double *pairs = measure_alloc(2 * set->bins, sizeof *pairs);
@@ -37,8 +37,11 @@ static void print_frame(struct table *table, const struct frames *f,
     if (box_holds(box, b->x + 3 * i))
       memcpy(x + 3 * n++, b->x + 3 * i, 3 * sizeof *x);
   const double rmax = set->rmax * 2 * radius;
-  frame_check(f, b,
-              correlation_count(n, x, box, rmax, set->bins, pairs, expected));
+  struct frames_part part = {f, 0, 1};
+  const struct observer told = frames_observer(&part);
+  frame_check(
+      f, b,
+      correlation_count(n, x, box, rmax, set->bins, &told, pairs, expected));
   table_frame(table, TABLE_BLOCKS, "t\tr\tg\tpairs\texpected\tcoordination");
   double around = 0;
   for (size_t k = 0; k < set->bins; k++) {
@@ -100,12 +103,18 @@ int verb_gr(int argc, char **argv) {
 
   struct frames frames;
   struct bed bed = {0};
+  struct box_watch watch = {0};
   frames_open(&frames, &input, argc, argv, operand);
   struct table table;
   table_open(&table, &frames, mean);
-  while (frames_next(&frames, &bed))
+  while (frames_next(&frames, &bed)) {
+    if (set.box.count)
+      box_watch_see(&watch, &frames, &bed, false, 1,
+                    (const double(*)[6])set.box.at);
     print_frame(&table, &frames, &set, &bed);
+  }
   table_close(&table);
+  box_watch_end(&watch);
   frames_close(&frames);
   finish_output();
   return EXIT_DONE;

@@ -39,6 +39,14 @@ void frame_check_box(const struct frames *f, const struct bed *b,
     frame_refuse(f, b, "a box too small beside a sphere for its volume");
 }
 
+/* Of equal spheres theirs, without a rounding. */
+static double mean_radius(const struct bed *b) {
+  double more = 0;
+  for (size_t i = 0; i < b->n; i++)
+    more += b->r[i] - b->r[0];
+  return b->r[0] + more / (double)b->n;
+}
+
 struct scene frame_scene(const struct frames *f, const struct bed *b) {
   struct scene s;
   if (f->first && !frames_are_beds(f))
@@ -48,6 +56,9 @@ struct scene frame_scene(const struct frames *f, const struct bed *b) {
   const char *wrong = scene_from_header(&s, frames_header(f));
   if (wrong)
     frame_refuse(f, b, wrong);
+  /* else all of a bed of millimetres is within the reach of each sphere */
+  if (!bed_header_get(frames_header(f), "lmax") && b->n)
+    s.law.lmax = mean_radius(b);
   return s;
 }
 
@@ -70,7 +81,7 @@ void header_walls(const struct bed_header *h, double box[6], bool walled[6]) {
   }
 }
 
-void frame_base_box(const struct bed_header *h, double box[6]) {
+bool frame_base_box(const struct bed_header *h, double box[6]) {
   static const double unit[6] = {0, 1, 0, 1, 0, 1};
   double walls[6] = {0};
   bool walled[6];
@@ -78,7 +89,78 @@ void frame_base_box(const struct bed_header *h, double box[6]) {
   walls[5] = walls[4] + GSL_MIN(walls[1] - walls[0], walls[3] - walls[2]);
   const bool base =
       walled[0] && walled[1] && walled[2] && walled[3] && walled[4];
-  memcpy(box, base && box_valid(walls) ? walls : unit, sizeof unit);
+  const bool valid = base && box_valid(walls);
+  memcpy(box, valid ? walls : unit, sizeof unit);
+  return valid;
+}
+
+void frame_choose_box(const struct frames *f, const struct option_list *given,
+                      double box[6]) {
+  if (given->count)
+    memcpy(box, given->at, 6 * sizeof *box);
+  else
+    frame_base_box(frames_header(f), box);
+}
+
+/* The box that the spheres take up. */
+static void spheres_span(const struct bed *b, double span[6]) {
+  for (int k = 0; k < 3; k++) {
+    span[2 * k] = GSL_POSINF;
+    span[2 * k + 1] = GSL_NEGINF;
+    for (size_t i = 0; i < b->n; i++) {
+      const double x = b->x[3 * i + (size_t)k], r = b->r[i];
+      span[2 * k] = fmin(span[2 * k], x - r);
+      span[2 * k + 1] = fmax(span[2 * k + 1], x + r);
+    }
+  }
+}
+
+static const double much_wider = 0.1;
+
+static const char *box_text(const double box[6], char *text, size_t size) {
+  snprintf(text, size, "%.6g,%.6g,%.6g,%.6g,%.6g,%.6g", box[0], box[1], box[2],
+           box[3], box[4], box[5]);
+  return text;
+}
+
+void box_watch_end(const struct box_watch *w) {
+  char box[160], span[160];
+  if (!w->looks)
+    return;
+  box_text(w->box, box, sizeof box);
+  box_text(w->span, span, sizeof span);
+  if (!w->found) {
+    warn("%s: no sphere is in the box %s%s; the spheres span %s m", w->name,
+         box, w->default_ ? " (the default without walls)" : "", span);
+    return;
+  }
+  /* a bed of grains in the corner of a cube of a metre */
+  if (w->default_ && w->span[1] - w->span[0] < much_wider &&
+      w->span[3] - w->span[2] < much_wider)
+    warn("%s: has no walls, so that the box is the unit cube; the spheres span "
+         "%s m: expected --box",
+         w->name, span);
+}
+
+void box_watch_see(struct box_watch *w, const struct frames *f,
+                   const struct bed *b, bool from_base, size_t count,
+                   const double (*boxes)[6]) {
+  if (f->first) {
+    box_watch_end(w);
+    *w = (struct box_watch){.name = f->name};
+  }
+  if (b->n == 0)
+    return;
+  double unit[6];
+  w->looks++;
+  w->default_ = from_base && !frame_base_box(frames_header(f), unit);
+  memcpy(w->box, boxes[0], sizeof w->box);
+  spheres_span(b, w->span);
+  for (size_t k = 0; k < count; k++)
+    for (size_t i = 0; i < b->n && !w->found; i++)
+      w->found = w->default_
+                     ? box_holds(boxes[k], b->x + 3 * i)
+                     : !box_misses_ball(boxes[k], b->x + 3 * i, b->r[i]);
 }
 
 void frame_warn_rewritten(const struct frames *f) {
@@ -90,14 +172,18 @@ void frame_warn_rewritten(const struct frames *f) {
 }
 
 void frame_check(const struct frames *f, const struct bed *b, int status) {
-  if (status == GSL_SUCCESS)
+  switch (status) {
+  case GSL_SUCCESS:
     return;
-  if (status == GSL_ENOMEM)
-    die(EXIT_IO, "t=%g: out of memory", b->t);
-  frame_refuse(f, b,
-               status == GSL_EDOM
-                   ? "two spheres have the same centre, expected one each"
-                   : "a number is not finite");
+  case GSL_EDOM:
+    frame_refuse(f, b, "two spheres have the same centre, expected one each");
+  case GSL_EINVAL:
+    frame_refuse(f, b, "a number is not finite");
+  default:
+    fflush(stdout); /* rows of the frames before it */
+    die(EXIT_IO, "%s: t=%g: %s", f->name, b->t,
+        status == GSL_ENOMEM ? "out of memory" : gsl_strerror(status));
+  }
 }
 
 void frame_box(const struct bed *b, double margin, double box[6]) {

@@ -2,7 +2,6 @@
 /* movie: all frames as an animation of one view and one scale of colours. A
    GIF is put together by gnuplot, any other kind by ffmpeg. */
 #include <stdlib.h>
-#include <unistd.h>
 #include "frames.h"
 #include "picture.h"
 #include "verbs.h"
@@ -20,18 +19,18 @@ static size_t read_frames(struct frames *frames, struct picture *picture) {
   return count;
 }
 
-static void draw_frames(struct picture *picture, size_t count, bool quiet) {
+static void draw_frames(struct picture *picture, size_t count) {
+  progress_restart(&picture->progress);
   for (size_t k = 0; k < count; k++) {
     char data[32], name[32];
     snprintf(data, sizeof data, "%zu.tsv", k);
     snprintf(name, sizeof name, "%zu.png", k);
     const char *drawn = picture_path(picture, name);
+    progress_name(&picture->progress, "frame %zu of %zu", k + 1, count);
+    picture->done = (double)k / ((double)count + 1);
     picture_draw(picture, data, drawn);
-    if (!quiet)
-      fprintf(stderr, "\ranalyze: %zu of %zu frames drawn", k + 1, count);
   }
-  if (!quiet)
-    fputs("\r\033[K", stderr);
+  picture->done = (double)count / ((double)count + 1);
 }
 
 int verb_movie(int argc, char **argv) {
@@ -66,7 +65,7 @@ int verb_movie(int argc, char **argv) {
         "--output %s: expected a name that ends in .gif, .mp4 or .webm",
         output);
   picture.half_size = gif;
-  picture_begin(&picture, output);
+  picture_begin(&picture, output, input.quiet);
 
   if (!gif) { /* say so before the work */
     const char *const version[] = {"ffmpeg", "-version", NULL};
@@ -76,7 +75,7 @@ int verb_movie(int argc, char **argv) {
   frames_open(&frames, &input, argc, argv, operand);
   const size_t count = read_frames(&frames, &picture);
   frames_close(&frames);
-  draw_frames(&picture, count, input.quiet || !isatty(STDERR_FILENO));
+  draw_frames(&picture, count);
 
   const char *made =
       picture_path(&picture, gif                       ? "movie.gif"
@@ -87,8 +86,9 @@ int verb_movie(int argc, char **argv) {
     char *script = picture_script("movie.gp");
     snprintf(number, sizeof number, "%zu", count);
     snprintf(numbers, sizeof numbers, "%.0f", 100 / rate);
-    const char *const argv_gif[] = {"gnuplot", "-c",    script, picture.scratch,
-                                    number,    numbers, made,   NULL};
+    const char *const argv_gif[] = {
+        "gnuplot", "-d",    "-c", script, picture.scratch,
+        number,    numbers, made, NULL};
     picture_run(&picture, "gnuplot-nox", argv_gif);
     free(script);
   } else {
@@ -99,6 +99,7 @@ int verb_movie(int argc, char **argv) {
                                       "yuv420p", made, NULL};
     picture_run(&picture, "ffmpeg", argv_video);
   }
+  progress_end(&picture.progress);
   picture_deliver(&picture, made);
   return EXIT_DONE;
 }

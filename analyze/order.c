@@ -24,14 +24,15 @@ static const char *const class_names[] = {[BOND_DISORDERED] = "disordered",
                                           [BOND_HCP] = "hcp",
                                           [BOND_BCC] = "bcc"};
 
-static void print_spheres(struct table *table, const struct order *set,
-                          const struct bed *b, const double box[6],
-                          const struct bond_order *o) {
+static void print_spheres(struct table *table, struct frames *f,
+                          const struct order *set, const struct bed *b,
+                          const double box[6], const struct bond_order *o) {
   table_frame(table, TABLE_BLOCKS,
               "t\tid\tx\ty\tz\tr\tneighbours\tq4\tq6\tqbar4\tqbar6\twbar4\t"
               "wbar6\tclass\tlike");
   for (size_t i = 0; i < b->n; i++) {
     const double *x = b->x + 3 * i;
+    frames_tell(f, 0.7 + 0.3 * (double)i / (double)b->n);
     if (!box_holds(box, x))
       continue;
     const double numbers[] = {o[i].q4,    o[i].q6,    o[i].qbar4,
@@ -81,20 +82,23 @@ static void print_row(struct table *table, const struct order *set,
   table_end_row(table);
 }
 
-static void print_frame(struct table *table, const struct frames *f,
+static void print_frame(struct table *table, struct frames *f,
                         const struct order *set, const struct bed *b) {
   struct bond_order *o = measure_alloc(b->n, sizeof *o);
   double box[6], diameter = 0;
   for (size_t i = 0; i < b->n; i++)
     diameter += 2 * b->r[i];
   diameter /= (double)b->n;
-  frame_check(f, b, bond_order_find(b->n, b->x, set->cutoff * diameter, o));
+  struct frames_part part = {f, 0, set->spheres ? 0.7 : 1};
+  const struct observer told = frames_observer(&part);
+  frame_check(f, b,
+              bond_order_find(b->n, b->x, set->cutoff * diameter, &told, o));
   if (set->box.count)
     memcpy(box, set->box.at, sizeof box);
   else
     frame_box(b, set->margin * diameter, box);
   if (set->spheres)
-    print_spheres(table, set, b, box, o);
+    print_spheres(table, f, set, b, box, o);
   else
     print_row(table, set, b, box, o);
   free(o);
@@ -147,12 +151,18 @@ int verb_order(int argc, char **argv) {
 
   struct frames frames;
   struct bed bed = {0};
+  struct box_watch watch = {0};
   frames_open(&frames, &input, argc, argv, operand);
   struct table table;
   table_open(&table, &frames, mean);
-  while (frames_next(&frames, &bed))
+  while (frames_next(&frames, &bed)) {
+    if (set.box.count)
+      box_watch_see(&watch, &frames, &bed, false, 1,
+                    (const double(*)[6])set.box.at);
     print_frame(&table, &frames, &set, &bed);
+  }
   table_close(&table);
+  box_watch_end(&watch);
   frames_close(&frames);
   finish_output();
   return EXIT_DONE;

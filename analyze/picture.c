@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
@@ -40,7 +41,9 @@ struct scratch_file {
   struct scratch_file *next;
 };
 
-void picture_begin(struct picture *p, const char *output) {
+void picture_begin(struct picture *p, const char *output, bool quiet) {
+  p->progress = progress_begin(quiet);
+  p->done = -1;
   if (!(p->view.at[1] >= 0 && p->view.at[1] <= 90) ||
       !(fabs(p->view.at[0]) <= 360))
     die(EXIT_USAGE, "--view: expected a turn from -360 to 360 and an angle to "
@@ -248,7 +251,7 @@ static void first_line(FILE *said, char *text, size_t size) {
   }
 }
 
-void picture_run(const struct picture *p, const char *package,
+void picture_run(struct picture *p, const char *package,
                  const char *const argv[]) {
   FILE *said = tmpfile();
   if (!said)
@@ -266,8 +269,15 @@ void picture_run(const struct picture *p, const char *package,
   }
   int status = 0;
   litter_child(child); /* a signal ends it, and then us */
-  while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR)
-    ;
+  static const struct timespec pause = {.tv_nsec = 5000000};
+  for (pid_t ended = 0; child > 0 && ended != child;) {
+    ended = waitpid(child, &status, WNOHANG);
+    if (ended < 0 && errno != EINTR)
+      break;
+    progress_tell(&p->progress, p->done);
+    if (ended == 0)
+      nanosleep(&pause, NULL);
+  }
   litter_child(0);
   char text[200];
   first_line(said, text, sizeof text);
@@ -290,11 +300,13 @@ void picture_draw(struct picture *p, const char *name, const char *output) {
   while (strcmp(picture_colors[c], p->color))
     c++;
   const double *b = p->box;
-  double size[3], low = p->low, high = p->high;
+  double size[3], widest = 0, low = p->low, high = p->high;
   if (c == 1 || c == 3)
     low = 0;
   for (int a = 0; a < 3; a++)
-    size[a] = fmax(b[2 * a + 1] - b[2 * a], 1e-9);
+    widest = fmax(widest, b[2 * a + 1] - b[2 * a]);
+  for (int a = 0; a < 3; a++) /* walls may meet */
+    size[a] = fmax(b[2 * a + 1] - b[2 * a], 1e-6 * widest);
   if (!(high > low) && c >= 3) {
     high = low + 1;
   } else if (!(high > low)) { /* one value: the middle of the scale */
@@ -313,7 +325,8 @@ void picture_draw(struct picture *p, const char *name, const char *output) {
            p->facets, p->half_size ? 1 : 2);
   char *script = picture_script("bed.gp");
   const char *data = picture_path(p, name);
-  const char *const argv[] = {"gnuplot", "-e", set,    "-c",
+  /* -d: whatever the user's own ~/.gnuplot has */
+  const char *const argv[] = {"gnuplot", "-d", "-e",   set, "-c",
                               script,    data, output, NULL};
   picture_run(p, "gnuplot-nox", argv);
   if (access(output, R_OK) != 0)

@@ -8,6 +8,7 @@
 #include "files/bed_io.h"
 #include "program/files.h"
 #include "program/command_line.h"
+#include "program/progress.h"
 
 struct picture {
   const char *color;       /* one of picture_colors */
@@ -16,10 +17,12 @@ struct picture {
   bool half_size;          /* 640 x 480 pixels */
   char *scratch;           /* directory */
   struct scratch_file *files;
-  struct output_file file; /* what is made, or standard output */
-  double box[6];           /* x0 x1 y0 y1 z0 z1 (m), grown by picture_measure */
-  bool fixed[6];           /* a wall of the scene */
-  double low, high;        /* of what the colours show */
+  struct progress progress; /* of what is drawn */
+  double done;              /* of it, as in progress_tell */
+  struct output_file file;  /* what is made, or standard output */
+  double box[6];    /* x0 x1 y0 y1 z0 z1 (m), grown by picture_measure */
+  bool fixed[6];    /* a wall of the scene */
+  double low, high; /* of what the colours show */
   size_t measured;
 };
 
@@ -35,8 +38,9 @@ extern const char *const picture_colors[];
 /* clang-format on */
 
 /* Checks the options, makes the scratch directory and opens what is to be made:
-   output, whole or not at all, or standard output for NULL. */
-void picture_begin(struct picture *p, const char *output);
+   output, whole or not at all, or standard output for NULL. quiet: no
+   progress. */
+void picture_begin(struct picture *p, const char *output, bool quiet);
 
 /* A path in the scratch directory, which lives as long as the program. */
 const char *picture_path(struct picture *p, const char *name);
@@ -53,7 +57,7 @@ void picture_draw(struct picture *p, const char *name, const char *output);
 
 /* Runs a program of the search path and waits; a failure is an error with the
    first line of what it said. package is what Debian calls it. */
-void picture_run(const struct picture *p, const char *package,
+void picture_run(struct picture *p, const char *package,
                  const char *const argv[]);
 
 /* The path of one of our gnuplot scripts: in $DEM_PLOTS, in ../share/dem/plots

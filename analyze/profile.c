@@ -31,15 +31,11 @@ struct areas {
   double sum, united, all;
 };
 
-static void check(const struct bed *b, int status) {
-  if (status != GSL_SUCCESS)
-    die(EXIT_IO, "t=%g: %s", b->t, gsl_strerror(status));
-}
-
 /* Adds the plane at `at` across an axis, within the box. discs: room for three
    numbers per sphere. */
-static void add_plane(struct areas *areas, const struct bed *b, int axis,
-                      double at, const double box[6], double *discs) {
+static void add_plane(struct areas *areas, const struct frames *f,
+                      const struct bed *b, int axis, double at,
+                      const double box[6], double *discs) {
   const int p = axis == 0 ? 1 : 0, q = axis == 2 ? 1 : 2;
   const double rectangle[4] = {box[2 * p], box[2 * p + 1], box[2 * q],
                                box[2 * q + 1]};
@@ -53,16 +49,16 @@ static void add_plane(struct areas *areas, const struct bed *b, int axis,
     c[2 * n + 1] = x[q];
     r[n++] = sqrt((b->r[i] - d) * (b->r[i] + d));
   }
-  check(b, area_union(n, c, r, rectangle, &united));
+  frame_check(f, b, area_union(n, c, r, rectangle, &united));
   areas->sum += area_sum(n, c, r, rectangle);
   areas->united += united;
   areas->all += (rectangle[1] - rectangle[0]) * (rectangle[3] - rectangle[2]);
 }
 
 /* The side faces of the box once it has shrunk by the distance. */
-static void add_box_shell(struct areas *areas, const struct bed *b,
-                          const struct where *w, double distance,
-                          double *discs) {
+static void add_box_shell(struct areas *areas, const struct frames *f,
+                          const struct bed *b, const struct where *w,
+                          double distance, double *discs) {
   double box[6];
   memcpy(box, w->box, sizeof box);
   for (int k = 0; k < 2; k++) {
@@ -71,14 +67,14 @@ static void add_box_shell(struct areas *areas, const struct bed *b,
   }
   for (int k = 0; k < 2; k++)
     for (int side = 0; side < 2; side++)
-      add_plane(areas, b, w->across[k], box[2 * w->across[k] + side], box,
+      add_plane(areas, f, b, w->across[k], box[2 * w->across[k] + side], box,
                 discs);
 }
 
 /* rotated: room for three numbers per sphere. */
-static void add_cylinder_shell(struct areas *areas, const struct bed *b,
-                               const struct where *w, double radius,
-                               double *rotated) {
+static void add_cylinder_shell(struct areas *areas, const struct frames *f,
+                               const struct bed *b, const struct where *w,
+                               double radius, double *rotated) {
   const struct area_shell shell = {
       {w->cylinder[0], w->cylinder[1]},
       radius,
@@ -88,30 +84,31 @@ static void add_cylinder_shell(struct areas *areas, const struct bed *b,
     rotated[3 * i + 1] = b->x[3 * i + (size_t)w->across[1]];
     rotated[3 * i + 2] = b->x[3 * i + (size_t)w->axis];
   }
-  check(b, area_shell_covered(b->n, rotated, b->r, &shell, &areas->sum,
-                              &areas->united));
+  frame_check(f, b,
+              area_shell_covered(b->n, rotated, b->r, &shell, &areas->sum,
+                                 &areas->united));
   areas->all = 2 * M_PI * radius * (shell.z[1] - shell.z[0]);
 }
 
-static void print_profile(struct table *table, const struct bed *b,
-                          const struct where *w, size_t points) {
-  double *room = calloc(b->n + 1, 3 * sizeof *room);
-  if (!room)
-    die(EXIT_IO, "out of memory");
+static void print_profile(struct table *table, struct frames *f,
+                          const struct bed *b, const struct where *w,
+                          size_t points) {
+  double *room = measure_alloc(b->n, 3 * sizeof *room);
   const double low = w->wall > 0 || w->cylinder ? 0 : w->box[2 * w->axis];
   const double high = w->wall > 0   ? w->wall
                       : w->cylinder ? w->cylinder[2]
                                     : w->box[2 * w->axis + 1];
   for (size_t k = 0; k < points; k++) {
+    frames_tell(f, (double)k / (double)points);
     const double at = low + (high - low) * ((double)k + 0.5) / (double)points;
     struct areas areas = {0};
     if (w->cylinder)
-      add_cylinder_shell(&areas, b, w, w->wall > 0 ? w->cylinder[2] - at : at,
-                         room);
+      add_cylinder_shell(&areas, f, b, w,
+                         w->wall > 0 ? w->cylinder[2] - at : at, room);
     else if (w->wall > 0)
-      add_box_shell(&areas, b, w, at, room);
+      add_box_shell(&areas, f, b, w, at, room);
     else
-      add_plane(&areas, b, w->axis, at, w->box, room);
+      add_plane(&areas, f, b, w->axis, at, w->box, room);
     table_number(table, b->t);
     table_number(table, at);
     table_number(table, areas.sum / areas.all);
@@ -121,8 +118,20 @@ static void print_profile(struct table *table, const struct bed *b,
   free(room);
 }
 
+/* --from-wall ends in the middle. */
+static void check_wall(const struct where *w) {
+  double widest = w->cylinder ? w->cylinder[2] : GSL_POSINF;
+  for (int k = 0; k < 2 && !w->cylinder; k++) {
+    const double *face = w->box + 2 * w->across[k];
+    widest = fmin(widest, (face[1] - face[0]) / 2);
+  }
+  if (w->wall > widest)
+    die(EXIT_USAGE, "--from-wall %g: expected at most %g, the middle", w->wall,
+        widest);
+}
+
 int verb_profile(int argc, char **argv) {
-  struct option_list box = {6, {0, 1, 0, 1, 0, 1}}, cylinder = {0};
+  struct option_list box = {0}, cylinder = {0};
   const char *axis = "z";
   size_t points = 100;
   struct frames_options input = {.may_be_empty = true, .many = true};
@@ -130,8 +139,7 @@ int verb_profile(int argc, char **argv) {
   struct where w = {0};
   /* clang-format off */
   struct option_spec options[] = {
-      {.name = "box", .type = OPTION_LIST, .value = &box, .least = 6,
-       .most = 6, .unit = "m", .help = "x0,x1,y0,y1,z0,z1"},
+      BOX_OPTION(box, "where" BASE_BOX),
       {.name = "axis", .type = OPTION_TEXT, .value = &axis, .choices = axes,
        .help = "axis along which, or around which, the profile is taken"},
       {.name = "from-wall", .type = OPTION_DOUBLE, .value = &w.wall,
@@ -160,23 +168,15 @@ int verb_profile(int argc, char **argv) {
       .options = options};
   const int operand = options_parse(&program, argc, argv);
   box_check(&box);
-  memcpy(w.box, box.at, sizeof w.box);
   w.axis = axis[0] - 'x';
   w.across[0] = w.axis == 0 ? 1 : 0;
   w.across[1] = w.axis == 2 ? 1 : 2;
   w.cylinder = cylinder.count ? cylinder.at : NULL;
   if (w.cylinder && !(w.cylinder[2] > 0))
     die(EXIT_USAGE, "--cylinder: expected a radius above 0");
-  double widest = w.cylinder ? w.cylinder[2] : GSL_POSINF;
-  for (int k = 0; k < 2 && !w.cylinder; k++)
-    widest =
-        fmin(widest, (w.box[2 * w.across[k] + 1] - w.box[2 * w.across[k]]) / 2);
-  if (w.wall > widest)
-    die(EXIT_USAGE, "--from-wall %g: expected at most %g, the middle", w.wall,
-        widest);
-
   struct frames frames;
   struct bed bed = {0};
+  struct box_watch watch = {0};
   frames_open(&frames, &input, argc, argv, operand);
   char names[40];
   struct table table;
@@ -186,10 +186,15 @@ int verb_profile(int argc, char **argv) {
                         : axis);
   table_open(&table, &frames, mean);
   while (frames_next(&frames, &bed)) {
+    frame_choose_box(&frames, &box, w.box);
+    check_wall(&w);
+    box_watch_see(&watch, &frames, &bed, !box.count, 1,
+                  (const double(*)[6])w.box);
     table_frame(&table, TABLE_PARTS, names);
-    print_profile(&table, &bed, &w, points);
+    print_profile(&table, &frames, &bed, &w, points);
   }
   table_close(&table);
+  box_watch_end(&watch);
   frames_close(&frames);
   finish_output();
   return EXIT_DONE;

@@ -20,7 +20,7 @@
 static double unbalanced(const struct frames *f, const struct scene *s,
                          const struct bed *b) {
   struct network w = {0};
-  frame_check(f, b, network_find(&w, s, b, 0));
+  frame_check(f, b, network_find(&w, s, b, s->law.lmax));
   network_mark(&w, 0, 0);
   double *force = measure_alloc(3 * b->n, sizeof *force);
   double net = 0, contact = 0;
@@ -49,8 +49,10 @@ static struct energies energies(const struct frames *f, const struct scene *s,
       f, b, dynamics_alloc(&d, s, b, &(struct dynamics_options){.threads = 1}));
   double *y = measure_alloc(dynamics_dimension(d), sizeof *y);
   dynamics_pack(d, b, y);
+  struct survey survey;
+  frame_check(f, b, dynamics_survey(d, y, &survey));
   const struct energies e = {dynamics_kinetic(d, y) / (double)b->n,
-                             dynamics_potential(d, y) / (double)b->n,
+                             (survey.gravity + survey.stored) / (double)b->n,
                              dynamics_fastest(d, y)};
   free(y);
   dynamics_free(d);
@@ -58,12 +60,12 @@ static struct energies energies(const struct frames *f, const struct scene *s,
 }
 
 int verb_rest(int argc, char **argv) {
-  struct option_list box = {6, {0, 1, 0, 1, 0, 1}};
+  struct option_list given = {0};
   struct frames_options input = {.many = true};
   bool mean = false;
   /* clang-format off */
   struct option_spec options[] = {
-      BOX_OPTION(box, "for the fraction"),
+      BOX_OPTION(given, "for the fraction" BASE_BOX),
       MEAN_OPTION(mean),
       FRAMES_OPTIONS(input),
       {0}};
@@ -91,12 +93,12 @@ int verb_rest(int argc, char **argv) {
       .example = "settle --frames 161 | analyze rest",
       .options = options};
   const int operand = options_parse(&program, argc, argv);
-  box_check(&box);
-  const double volume = box_volume(box.at);
+  box_check(&given);
 
   struct frames frames;
   struct bed bed = {0};
   struct rest_watch watch = {0};
+  struct box_watch boxes = {0};
   double last_t = GSL_NAN, last_union = GSL_NAN;
   frames_open(&frames, &input, argc, argv, operand);
   struct table table;
@@ -105,10 +107,16 @@ int verb_rest(int argc, char **argv) {
     struct scene scene = frame_scene(&frames, &bed);
     if (frames.first)
       frame_warn_rewritten(&frames);
-    double united;
-    frame_check_box(&frames, &bed, box.at);
+    double united, box[6];
+    frame_choose_box(&frames, &given, box);
+    const double volume = box_volume(box);
+    box_watch_see(&boxes, &frames, &bed, !given.count, 1,
+                  (const double(*)[6])box);
+    frame_check_box(&frames, &bed, box);
+    struct frames_part part = {&frames, 0, 0.7};
+    const struct observer told = frames_observer(&part);
     frame_check(&frames, &bed,
-                volume_union(bed.n, bed.x, bed.r, box.at, &united));
+                volume_union_told(bed.n, bed.x, bed.r, box, &told, &united));
     const struct energies e = energies(&frames, &scene, &bed);
     const double net = unbalanced(&frames, &scene, &bed);
     if (frames.first) {
@@ -136,6 +144,7 @@ int verb_rest(int argc, char **argv) {
     scene_free(&scene);
   }
   table_close(&table);
+  box_watch_end(&boxes);
   frames_close(&frames);
   finish_output();
   return EXIT_DONE;

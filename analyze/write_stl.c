@@ -237,6 +237,17 @@ static void check_count(double facets) {
         (unsigned long)UINT32_MAX);
 }
 
+static double shortest_edge(size_t count, const double (*facet)[9]) {
+  double shortest = GSL_POSINF;
+  for (size_t i = 0; i < count; i++)
+    for (int k = 0; k < 3; k++) {
+      double d[3];
+      vec3_sub(facet[i] + 3 * k, facet[i] + 3 * ((k + 1) % 3), d);
+      shortest = fmin(shortest, vec3_norm(d));
+    }
+  return shortest;
+}
+
 static void write_bodies(FILE *out, const struct shape *s,
                          const struct write_options *o, const char *note) {
   const struct bed *b = &s->bed;
@@ -262,6 +273,11 @@ static void write_bodies(FILE *out, const struct shape *s,
       s->solid.bridge_radius * (o->equal_volume ? sqrt(1 / polygon) : 1);
   if (o->equal_volume)
     share = 1;
+  double least = GSL_POSINF;
+  for (size_t i = 0; i < b->n; i++)
+    least = fmin(least, b->r[i]);
+  write_check_single(s, least * scale *
+                            shortest_edge(count, (const double(*)[9])facet));
   char text[120];
   if (note)
     snprintf(text, sizeof text, "analyze export %s: %s", DEM_VERSION, note);
@@ -272,9 +288,7 @@ static void write_bodies(FILE *out, const struct shape *s,
   put_header(out, text,
              count * b->n + prism_facets(sides) * s->solid.bridges +
                  PLATE_FACETS * walls);
-  double smallest = GSL_POSINF;
   for (size_t i = 0; i < b->n && !ferror(out); i++) {
-    smallest = fmin(smallest, b->r[i] / (double)m);
     for (size_t q = 0; q < count; q++) {
       double corner[9], normal[3];
       normal_of(facet[q], normal);
@@ -289,10 +303,6 @@ static void write_bodies(FILE *out, const struct shape *s,
               b->x + 3 * (size_t)s->ends[k][1], radius, sides);
   for (size_t k = 0; k < walls; k++)
     put_box(out, plate[k]);
-  if (smallest < 8 * ulp(s))
-    warn("single precision, which STL has, cannot hold facets of %.2g m at "
-         "places of %.2g: --offset moves them",
-         smallest, ulp(s) / FLT_EPSILON);
   if (!o->quiet)
     warn("%zu facets a sphere, with %.6f of the volume of a ball%s", count,
          share, o->equal_volume ? "" : " (--equal-volume: all of it)");

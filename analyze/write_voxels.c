@@ -5,8 +5,6 @@
 #define _POSIX_C_SOURCE 200809L
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
-#include <unistd.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include "program/command_line.h"
@@ -14,27 +12,12 @@
 #include "geometry/parts.h"
 #include "measure.h"
 #include "program/files.h"
+#include "program/progress.h"
 #include "program/version.h"
 #include "writers.h"
 
 /* Numbers held at a time: 16 MB. */
 enum { AT_ONCE = 1 << 21 };
-
-struct progress {
-  bool show;
-  time_t start, shown;
-};
-
-static void show_progress(struct progress *p, size_t done, size_t all) {
-  const time_t now = p->show ? time(NULL) : p->shown;
-  if (now == p->shown)
-    return;
-  p->shown = now;
-  const double share = (double)done / (double)all;
-  fprintf(stderr, "\ranalyze: %3.0f %%  layer %zu of %zu  %.0f s left \033[K",
-          100 * share, done, all,
-          difftime(now, p->start) * (1 - share) / GSL_MAX(share, 1e-9));
-}
 
 static size_t number_size(const struct write_options *o) {
   return o->binary ? 1 : o->single ? 4 : 8;
@@ -109,13 +92,13 @@ static void write_grid(FILE *out, const struct write_frame *f,
       value && told.solid ? parts_open(&told.parts, nx, ny) : GSL_ENOMEM;
   if (!status)
     status = voxels_open(&v, solid, box, cells);
-  struct progress progress = {.show = !o->quiet && isatty(STDERR_FILENO),
-                              .start = time(NULL)};
-  progress.shown = progress.start;
+  struct progress progress = progress_begin(o->quiet);
   for (size_t k = 0; k < nz && !status && !ferror(out); k++)
     for (size_t j = 0; j < ny && !status && !ferror(out); j += rows) {
       const size_t end = GSL_MIN(ny, j + rows);
-      show_progress(&progress, k, nz);
+      progress_name(&progress, "layer %zu of %zu", k + 1, nz);
+      progress_tell(&progress,
+                    ((double)k + (double)j / (double)ny) / (double)nz);
       status = voxels_rows(v, what, k, j, end, o->threads, value);
       for (size_t r = j; r < end && !status; r++) {
         status = tell_row(&told, o, nx, value + nx * (r - j));
@@ -124,8 +107,7 @@ static void write_grid(FILE *out, const struct write_frame *f,
     }
   voxels_close(v);
   free(value);
-  if (progress.shown != progress.start)
-    fputs("\r\033[K", stderr);
+  progress_end(&progress);
   if (status == GSL_ENOMEM)
     die(EXIT_IO, "out of memory for rows of %zu cells", nx);
   if (status)

@@ -42,6 +42,12 @@ write_files_function write_freezethaw, write_mhd, write_openfoam;
 void write_little_endian(FILE *out, const void *data, size_t size,
                          size_t count);
 
+/* Exits with EXIT_INPUT and one line where coordinates in single precision are
+   too far from the origin for edges of a length: the numbers next to the
+   largest coordinate must lie at least 64 to an edge, so that triangles keep
+   their shape and a sphere of a thousand facets its volume to 1e-4. */
+void write_check_single(const struct shape *s, double edge);
+
 /* One data array of a VTK XML file, kept in its appended part. */
 struct vtk_array {
   const char *name, *type;        /* Float64, Int64, ... */

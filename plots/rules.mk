@@ -22,7 +22,8 @@ PAPER := --method merson --control paper --tol 0.1
 EMBEDDED := merson dopri5 rkf45 rkck rk8pd
 
 # Pictures of QUICK have half the size
-GNUPLOT := gnuplot $(if $(QUICK),-e magnify=1)
+# -d: whatever ~/.gnuplot holds
+GNUPLOT := gnuplot -d $(if $(QUICK),-e magnify=1)
 # The rule's gnuplot script with its data as SVG and PNG: the prerequisites that
 # end in .gp, and in .tsv or .log.
 define draw

@@ -51,7 +51,7 @@ static void test_against_dynamics(enum scene_model model) {
   CHECK(scene_add_box(&s, 1, 1) == GSL_SUCCESS);
   struct bed b = tangle(60, 7);
   struct network w = {0};
-  CHECK(network_find(&w, &s, &b, 0) == GSL_SUCCESS);
+  CHECK(network_find(&w, &s, &b, s.law.lmax) == GSL_SUCCESS);
   CHECK(w.count > 100);
   double *force = calloc(3 * b.n, sizeof *force);
   double *scale = calloc(b.n, sizeof *scale);
@@ -115,7 +115,7 @@ static void test_two_spheres(void) {
   b.r[1] = 0.07;
   b.x[0] = 0.5;
   b.x[3] = 0.5 + 0.17 - 0.012;
-  CHECK(network_find(&w, &s, &b, 0) == GSL_SUCCESS);
+  CHECK(network_find(&w, &s, &b, s.law.lmax) == GSL_SUCCESS);
   CHECK(w.count == 1 && !w.at[0].wall && w.at[0].i == 0 && w.at[0].j == 1);
   CHECK_CLOSE(w.at[0].gap, -0.012, 4 * eps);
   CHECK_REL(w.at[0].normal, 10 * exp(150 * 0.012) * (1 + 0.16) / 2,
@@ -138,14 +138,14 @@ static void test_two_spheres(void) {
 
   /* beyond lmax there is no force, though it may be listed */
   b.x[3] = 0.5 + 0.17 + 0.11;
-  CHECK(network_find(&w, &s, &b, 0) == GSL_SUCCESS && w.count == 0);
+  CHECK(network_find(&w, &s, &b, s.law.lmax) == GSL_SUCCESS && w.count == 0);
   CHECK(network_find(&w, &s, &b, 0.12) == GSL_SUCCESS && w.count == 1);
   CHECK(w.at[0].normal == 0);
 
   memcpy(b.x, b.x + 3, 3 * sizeof *b.x);
-  CHECK(network_find(&w, &s, &b, 0) == GSL_EDOM && w.count == 0);
+  CHECK(network_find(&w, &s, &b, s.law.lmax) == GSL_EDOM && w.count == 0);
   b.x[1] = GSL_NAN;
-  CHECK(network_find(&w, &s, &b, 0) == GSL_EINVAL && w.count == 0);
+  CHECK(network_find(&w, &s, &b, s.law.lmax) == GSL_EINVAL && w.count == 0);
   network_free(&w);
   bed_free(&b);
 }
@@ -161,7 +161,7 @@ static void test_slip(void) {
   b.r[0] = 0.1;
   b.x[2] = 0.09;
   b.v[0] = v;
-  CHECK(network_find(&w, &s, &b, 0) == GSL_SUCCESS && w.count == 1);
+  CHECK(network_find(&w, &s, &b, s.law.lmax) == GSL_SUCCESS && w.count == 1);
   const double push = 10 * exp(1.5), limit = 3 * 0.16 - 2 * 0.064;
   CHECK_REL(w.at[0].normal, push * 0.58, 1e-13);
   CHECK_REL(w.at[0].friction[0], -0.2 * push * limit, 1e-13);
@@ -171,10 +171,10 @@ static void test_slip(void) {
   CHECK_REL(load[2], -push * 0.58, 1e-13);
   CHECK_REL(load[0], 0.2 * push * limit, 1e-13);
   b.w[1] = v / b.r[0];
-  CHECK(network_find(&w, &s, &b, 0) == GSL_SUCCESS);
+  CHECK(network_find(&w, &s, &b, s.law.lmax) == GSL_SUCCESS);
   CHECK_CLOSE(w.at[0].friction[0], 0, 1e-13);
   s.model = SCENE_FRICTION; /* spins are none of its business */
-  CHECK(network_find(&w, &s, &b, 0) == GSL_SUCCESS);
+  CHECK(network_find(&w, &s, &b, s.law.lmax) == GSL_SUCCESS);
   CHECK_REL(w.at[0].friction[0], -0.2 * push * limit, 1e-13);
   network_free(&w);
   bed_free(&b);
@@ -200,7 +200,7 @@ static void test_column(void) {
     b.m[i] = m;
   }
   struct network w = {0};
-  CHECK(network_find(&w, &s, &b, 0) == GSL_SUCCESS && w.count == N);
+  CHECK(network_find(&w, &s, &b, s.law.lmax) == GSL_SUCCESS && w.count == N);
   for (size_t i = 0; i + 1 < N; i++)
     CHECK_REL(w.at[i].normal, (double)(N - 1 - i) * weight, 1e-9);
   double load[3], force[3 * N];
@@ -227,7 +227,7 @@ static void test_lattice(const char *name, size_t want) {
   struct network w = {0};
   size_t centre = 0;
   CHECK(lattice_bed(&l, 6, &b, &centre) == GSL_SUCCESS);
-  CHECK(network_find(&w, &s, &b, 0) == GSL_SUCCESS);
+  CHECK(network_find(&w, &s, &b, s.law.lmax) == GSL_SUCCESS);
   /* spheres touch to within the rounding of coordinates */
   network_mark(&w, 1e-12, 0);
   size_t *degree = calloc(2 * b.n, sizeof *degree), least = 100, most = 0;
@@ -272,7 +272,7 @@ static void test_rattlers(void) {
     b.x[3 * i] = i < RING ? 0.2 * cos(angle) : 0.2 * (double)(i - RING + 2);
     b.x[3 * i + 1] = i < RING ? 0.2 * sin(angle) : 0;
   }
-  CHECK(network_find(&w, &s, &b, 0) == GSL_SUCCESS);
+  CHECK(network_find(&w, &s, &b, s.law.lmax) == GSL_SUCCESS);
   network_mark(&w, 1e-9, 0);
   CHECK(network_rattlers(&w, 2, rattler) == TAIL);
   for (size_t i = 0; i < N; i++)
@@ -287,7 +287,7 @@ static void test_rattlers(void) {
   const double end = b.x[3 * (N - 1)] + 0.1;
   CHECK(scene_add_wall(&s, (double[]){end, 0, 0}, (double[]){1, 0, 0}) ==
         GSL_SUCCESS);
-  CHECK(network_find(&w, &s, &b, 0) == GSL_SUCCESS);
+  CHECK(network_find(&w, &s, &b, s.law.lmax) == GSL_SUCCESS);
   network_mark(&w, 1e-9, 0);
   CHECK(network_rattlers(&w, 2, rattler) == 0);
   network_degrees(&w, NULL, degree, with_spheres);
@@ -358,7 +358,7 @@ static void test_settled(void) {
   CHECK(dynamics_fastest(d, y) < s.law.vmin);
 
   struct network w = {0};
-  CHECK(network_find(&w, &s, &b, 0) == GSL_SUCCESS);
+  CHECK(network_find(&w, &s, &b, s.law.lmax) == GSL_SUCCESS);
   double *force = calloc(3 * b.n, sizeof *force);
   network_net_force(&w, &s, &b, force);
   const size_t stride = dynamics_stride(d);

@@ -137,6 +137,31 @@ check 'the first one is another' eval '! cmp -s "$T/bed.png" "$T/frame.png"'
 check 'an SVG' test "$(grep -c '<svg' "$T/x.svg")" = 1
 check 'with its label' grep -q 'touching spheres' "$T/x.svg"
 
+# whatever ~/.gnuplot holds
+mkdir "$T/home" "$T/other"
+printf 'set logscale z\nset terminal dumb\nset key\nset xrange [1:2]\n' \
+  >"$T/home/.gnuplot"
+own=tests/cases/gnuplot-own-settings.csv
+for home in home other; do
+  HOME=$T/$home timeout 60 "$B/analyze" draw --output "$T/$home.png" $own \
+    2>"$T/err"
+  check "drawn with the settings of $home: exit status $?" test $? = 0
+  HOME=$T/$home timeout 60 "$B/analyze" movie $own >"$T/$home.gif" 2>"$T/err"
+  check "a movie with the settings of $home" test -s "$T/$home.gif"
+done
+check 'own settings leave the picture alone' cmp -s "$T/home.png" "$T/other.png"
+check 'and the movie' cmp -s "$T/home.gif" "$T/other.gif"
+# the same bed in millimetres and in a billionth of that: the same picture, but
+# for its numbers
+for scale in 1 1e-3 1e-12; do
+  awk -F, -v s=$scale 'NR == 1 {print; next}
+    {printf "%.17g,%.17g,%.17g,%.17g\n", s * $1, s * $2, s * $3, s * $4}' $own |
+    timeout 60 "$B/analyze" draw >"$T/scaled.png" 2>"$T/err"
+  check "a bed times $scale" test "$(pixels "$T/scaled.png" | awk \
+    '$1 < 0.79 * 1280 {s = $3 - $5; n += s > 20 || s < -20}
+      END {print (n > 10000)}')" = 1
+done
+
 # --- animations ---------------------------------------------------------------
 "$B/analyze" movie --rate 10 "$T/bed" >"$T/x.gif"
 check 'a GIF of 640 x 480' test \

@@ -302,6 +302,58 @@ static void test_bodies(const struct bed *b) {
   free(s.at);
 }
 
+/* Far from the origin single precision runs out. As long as facets are written
+   none is without area, surfaces are closed and volumes right; then it is said
+   and nothing is written. The edge is a quarter of the radius of 0.1 and more,
+   and 64 of the numbers' spacings must fit in: some 4 km. */
+static void test_stl_far(const struct bed *b) {
+  enum { COUNT = 320 };
+  size_t written = 0, refused = 0;
+  for (int k = 1; k < 30; k++) {
+    const double far = ldexp(1, k);
+    char options[160];
+    snprintf(options, sizeof options, "--format stl --offset %.0f,%.0f,-%.0f",
+             far, far / 2, far);
+    char command[512];
+    const char *build = getenv("B");
+    snprintf(command, sizeof command,
+             "%s/analyze export --quiet %s %s 2>&1 >/dev/null | "
+             "grep -q '^analyze: .*single precision.*expected --offset'",
+             build ? build : "build", options, bed_path);
+    if (system(command) == 0) {
+      refused++;
+      CHECK(far > 1000);
+      continue;
+    }
+    if (!CHECK(far < 10000))
+      break;
+    CHECK(!refused);
+    written++;
+    const struct bytes s = run(options);
+    for (size_t i = 0; i < b->n; i++) {
+      const double c[3] = {b->x[3 * i] + far, b->x[3 * i + 1] + far / 2,
+                           b->x[3 * i + 2] - far};
+      double least, most;
+      CHECK(closed(&s, i * COUNT, COUNT));
+      const double volume =
+          facets_volume(&s, i * COUNT, COUNT, c, &least, &most);
+      /* 0.966151 of a ball; the spacing moves corners by up to half of it */
+      CHECK_CLOSE(volume / (4 * M_PI / 3 * gsl_pow_3(b->r[i])), 0.966151,
+                  1e-6 + 3 * far * FLT_EPSILON / b->r[i]);
+      CHECK_CLOSE(least, most, 4 * (1 + far) * FLT_EPSILON);
+      for (size_t q = i * COUNT; q < (i + 1) * COUNT; q++)
+        for (int e = 0; e < 3; e++) {
+          double x[3], y[3];
+          corner(&s, q, e, x);
+          corner(&s, q, (e + 1) % 3, y);
+          CHECK(x[0] != y[0] || x[1] != y[1] || x[2] != y[2]);
+        }
+    }
+    free(s.at);
+  }
+  CHECK(written > 9 && refused > 10);
+}
+
 /* --- VTK -------------------------------------------------------------------
  */
 
@@ -418,6 +470,7 @@ int main(void) {
   test_stl(&b);
   test_merged(&b);
   test_bodies(&b);
+  test_stl_far(&b);
   test_vtp(&b);
   test_voxels(&b);
   unlink(bed_path);

@@ -5,11 +5,22 @@
    functions below in the place of the allocators (Makefile). */
 #include <stdlib.h>
 #include <gsl/gsl_errno.h>
+#include <gsl/gsl_integration.h>
 #include <gsl/gsl_odeiv2.h>
+#include <gsl/gsl_poly.h>
 #include <gsl/gsl_rng.h>
+#include <gsl/gsl_roots.h>
 #include <gsl/gsl_rstat.h>
 #include "check.h"
 #include "dynamics/motion.h"
+#include "geometry/area.h"
+#include "geometry/neighbors.h"
+#include "geometry/volume.h"
+#include "geometry/voxels.h"
+#include "measure/bond_order.h"
+#include "measure/correlation.h"
+#include "measure/network.h"
+#include "measure/radius.h"
 #include "model/bed_check.h"
 #include "program/run_watch.h"
 #include "steppers/chebyshev.h"
@@ -43,6 +54,12 @@ WRAP(gsl_odeiv2_control *, gsl_odeiv2_control_scaled_new,
 
 WRAP(gsl_rng *, gsl_rng_alloc, (const gsl_rng_type *type), (type))
 WRAP(gsl_rstat_quantile_workspace *, gsl_rstat_quantile_alloc, (double p), (p))
+WRAP(gsl_poly_complex_workspace *, gsl_poly_complex_workspace_alloc, (size_t n),
+     (n))
+WRAP(gsl_root_fsolver *, gsl_root_fsolver_alloc,
+     (const gsl_root_fsolver_type *type), (type))
+WRAP(gsl_integration_glfixed_table *, gsl_integration_glfixed_table_alloc,
+     (size_t n), (n))
 
 /* --- what is constructed ---------------------------------------------------*/
 
@@ -225,6 +242,118 @@ static int make_crowd(const struct sample *s) {
   return bed_find_crowd(&s->bed, &c);
 }
 
+/* --- what is measured ------------------------------------------------------*/
+
+/* What a function gives, which must stay when it fails. */
+static const double before = 42;
+
+/* Spheres of the column overlap each other and the floor. */
+static const double box[6] = {0, 1, 0, 1, 0, 1};
+
+static int find_volume(const struct sample *s) {
+  double volume = before;
+  const int status = volume_union(s->bed.n, s->bed.x, s->bed.r, box, &volume);
+  CHECK((status == GSL_SUCCESS) == (volume != before));
+  return status;
+}
+
+static int sample_volume(const struct sample *s) {
+  double sum = before, both = before;
+  const int status =
+      volume_sampled(s->bed.n, s->bed.x, s->bed.r, box, 10, NULL, &sum, &both);
+  CHECK((status == GSL_SUCCESS) == (sum != before && both != before));
+  return status;
+}
+
+static int find_area(const struct sample *s) {
+  double area = before;
+  const int status = area_union(s->bed.n, s->bed.x, s->bed.r, box, &area);
+  CHECK((status == GSL_SUCCESS) == (area != before));
+  return status;
+}
+
+static int find_shell(const struct sample *s) {
+  const struct area_shell shell = {{0.5, 0.55}, 0.05, {0, 0.35}};
+  double sum = before, both = before;
+  const int status =
+      area_shell_covered(s->bed.n, s->bed.x, s->bed.r, &shell, &sum, &both);
+  CHECK((status == GSL_SUCCESS) == (sum != before && both != before));
+  return status;
+}
+
+static int find_neighbors(const struct sample *s) {
+  struct neighbors nb = {0};
+  const int status = neighbors_find(&nb, s->bed.n, s->bed.x, 3, s->bed.r, 0.01);
+  CHECK((status == GSL_SUCCESS) == (nb.count > 0));
+  neighbors_free(&nb);
+  return status;
+}
+
+static int find_network(const struct sample *s) {
+  struct network w = {0};
+  const int status = network_find(&w, &s->scene, &s->bed, 0.1);
+  CHECK((status == GSL_SUCCESS) == (w.count > 0));
+  bool *rattler = NULL;
+  int more = status;
+  if (status == GSL_SUCCESS) {
+    rattler = calloc(s->bed.n, sizeof *rattler);
+    if (!rattler || network_rattlers(&w, 2, rattler) == SIZE_MAX)
+      more = GSL_ENOMEM;
+  }
+  free(rattler);
+  network_free(&w);
+  return more;
+}
+
+static int find_order(const struct sample *s) {
+  struct bond_order order[3];
+  return bond_order_find(s->bed.n, s->bed.x, 0.25, NULL, order);
+}
+
+static int find_correlation(const struct sample *s) {
+  double pairs[2] = {before}, expected[2] = {before};
+  const int status =
+      correlation_count(s->bed.n, s->bed.x, box, 0.5, 2, NULL, pairs, expected);
+  CHECK((status == GSL_SUCCESS) == (pairs[0] != before));
+  return status;
+}
+
+static int find_radii(const struct sample *s) {
+  double r = before;
+  struct radius_overlaps o;
+  int status = radius_touching(&s->scene, s->bed.n, s->bed.x, &r);
+  if (status == GSL_SUCCESS)
+    status = radius_contact_mean(&s->scene, s->bed.n, s->bed.x, 0.1, &r);
+  if (status == GSL_SUCCESS)
+    status = radius_overlaps(&s->scene, s->bed.n, s->bed.x, 0.1, &o);
+  return status;
+}
+
+/* The root's search goes on after a volume that failed, and must not find
+   anything. */
+static int find_radius_of_fraction(const struct sample *s) {
+  double r = before;
+  const int status =
+      radius_of_fraction(s->bed.n, s->bed.x, box, 0.01, false, NULL, &r);
+  CHECK((status == GSL_SUCCESS) == (r != before));
+  return status;
+}
+
+static int find_voxels(const struct sample *s) {
+  static const size_t cells[3] = {4, 4, 4};
+  struct voxels *v = NULL;
+  double value[16];
+  int status = voxels_open(
+      &v, &(struct solid){.n = s->bed.n, .x = s->bed.x, .r = s->bed.r}, box,
+      cells);
+  CHECK((status == GSL_SUCCESS) == (v != NULL));
+  for (int what = VOXELS_FRACTION; what <= VOXELS_DISTANCE; what++)
+    if (status == GSL_SUCCESS)
+      status = voxels_rows(v, (enum voxels_value)what, 0, 0, 4, 2, value);
+  voxels_close(v);
+  return status;
+}
+
 /* Fails the first, second, ... allocation until there are no more. */
 static void check_each(const char *what, int (*make)(const struct sample *),
                        const struct sample *s, size_t least) {
@@ -267,6 +396,23 @@ int main(void) {
   check_each("limits", make_limits, &few, STIFFNESS_RAYS);
   check_each("watch", make_run_watch, &few, 3);
   check_each("crowd", make_crowd, &few, 2);
+  for (size_t i = 0; i < few.bed.n; i++) { /* overlapping, inside the walls */
+    few.bed.x[3 * i] = few.bed.x[3 * i + 1] = 0.5;
+    few.bed.x[3 * i + 2] = 0.05 + 0.15 * (double)i;
+  }
+  check_each("volume", find_volume, &few, 10);
+  check_each("sampled volume", sample_volume, &few, 1);
+  check_each("area", find_area, &few, 10);
+  check_each("shell", find_shell, &few, 16);
+  check_each("neighbors", find_neighbors, &few, 5);
+  many.bed.r[5] = 1000;
+  check_each("neighbors of two sizes", find_neighbors, &many, 7);
+  check_each("network", find_network, &few, 7);
+  check_each("bond order", find_order, &few, 8);
+  check_each("correlation", find_correlation, &few, 7);
+  check_each("radii", find_radii, &few, 15);
+  check_each("radius of a fraction", find_radius_of_fraction, &few, 100);
+  check_each("voxels", find_voxels, &few, 10);
   sample_free(&few);
   sample_free(&many);
   return check_done();

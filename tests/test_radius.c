@@ -64,15 +64,15 @@ static void test_lattice(void) {
   /* fractions: 64 r^3 4 pi/3, and less the lenses once spheres overlap; at the
      walls the box cuts caps of the same size as halves of lenses */
   const double sphere = 64 * 4 * M_PI / 3;
-  CHECK(radius_of_fraction(n, x, unit, 0.3, false, &r) == GSL_SUCCESS);
+  CHECK(radius_of_fraction(n, x, unit, 0.3, false, NULL, &r) == GSL_SUCCESS);
   CHECK_CLOSE(r, cbrt(0.3 / sphere), ULPS(16));
   const double want = 0.14, h = 0.125;
   const double cap = M_PI / 3 * (want - h) * (want - h) * (2 * want + h);
   const double united = sphere * gsl_pow_3(want) - 64 * 6 * cap;
-  CHECK(radius_of_fraction(n, x, unit, united, false, &r) == GSL_SUCCESS);
+  CHECK(radius_of_fraction(n, x, unit, united, false, NULL, &r) == GSL_SUCCESS);
   CHECK_CLOSE(r, want, ULPS(256));
   const double sum = sphere * gsl_pow_3(want) - 6 * 16 * cap;
-  CHECK(radius_of_fraction(n, x, unit, sum, true, &r) == GSL_SUCCESS);
+  CHECK(radius_of_fraction(n, x, unit, sum, true, NULL, &r) == GSL_SUCCESS);
   CHECK_CLOSE(r, want, ULPS(256));
   scene_free(&walls);
 }
@@ -87,11 +87,11 @@ static void test_none(void) {
   CHECK(radius_touching(&no_walls, 2, bad, &r) == GSL_EINVAL);
   CHECK(radius_contact_mean(&no_walls, 1, x, 0.1, &r) == GSL_EDOM);
   CHECK(radius_contact_mean(&no_walls, 2, bad, 0.1, &r) == GSL_EINVAL);
-  CHECK(radius_of_fraction(0, x, unit, 0.5, false, &r) == GSL_EDOM);
-  CHECK(radius_of_fraction(1, x, unit, 1, false, &r) == GSL_EDOM);
-  CHECK(radius_of_fraction(1, x, unit, 0, true, &r) == GSL_EDOM);
-  CHECK(radius_of_fraction(1, x, unit, GSL_NAN, true, &r) == GSL_EDOM);
-  CHECK(radius_of_fraction(2, bad, unit, 0.5, false, &r) == GSL_EINVAL);
+  CHECK(radius_of_fraction(0, x, unit, 0.5, false, NULL, &r) == GSL_EDOM);
+  CHECK(radius_of_fraction(1, x, unit, 1, false, NULL, &r) == GSL_EDOM);
+  CHECK(radius_of_fraction(1, x, unit, 0, true, NULL, &r) == GSL_EDOM);
+  CHECK(radius_of_fraction(1, x, unit, GSL_NAN, true, NULL, &r) == GSL_EDOM);
+  CHECK(radius_of_fraction(2, bad, unit, 0.5, false, NULL, &r) == GSL_EINVAL);
   CHECK(radius_overlaps(&no_walls, 2, bad, 0.1, &o) == GSL_EINVAL);
   CHECK(r == 7);
   /* one sphere on a floor; two far apart */
@@ -103,7 +103,8 @@ static void test_none(void) {
   const double outside[3] = {0.5, 0.4, -0.3};
   CHECK(radius_touching(&walls, 1, outside, &r) == GSL_EDOM);
   /* a sphere that reaches beyond the box all around fills it */
-  CHECK(radius_of_fraction(1, one, unit, 0.999999, false, &r) == GSL_SUCCESS);
+  CHECK(radius_of_fraction(1, one, unit, 0.999999, false, NULL, &r) ==
+        GSL_SUCCESS);
   CHECK(r < sqrt(0.25 + 0.36 + 0.49));
   scene_free(&walls);
 }
@@ -137,7 +138,8 @@ static void test_random(void) {
     ok &= CHECK(o.count == 1 && o.mean == o.largest);
     const double f = 0.1 + 0.8 * gsl_rng_uniform(rng);
     for (int sum = 0; sum < 2; sum++) {
-      ok &= CHECK(radius_of_fraction(N, x, unit, f, sum, &r) == GSL_SUCCESS);
+      ok &= CHECK(radius_of_fraction(N, x, unit, f, sum, NULL, &r) ==
+                  GSL_SUCCESS);
       for (int i = 0; i < N; i++)
         radii[i] = r;
       ok &= CHECK(volume_union(N, x, radii, unit, &volume) == GSL_SUCCESS);

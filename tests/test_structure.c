@@ -30,7 +30,7 @@ static void test_sc_pairs(void) {
   /* bins of 0.1 from 0 to 2.2: sqrt(1), sqrt(2), sqrt(3), sqrt(4) are 1, 1.41,
      1.73, 2; moved by a little so that none is on an edge */
   const double rmax = 2.2 * (1 - 1e-6);
-  CHECK(correlation_count(b.n, b.x, box, rmax, BINS, pairs, expected) ==
+  CHECK(correlation_count(b.n, b.x, box, rmax, BINS, NULL, pairs, expected) ==
         GSL_SUCCESS);
   want[10] = 3 * N * N * (N - 1);
   want[14] = 6 * N * (N - 1) * (N - 1);
@@ -53,12 +53,12 @@ static void test_shells(const char *name, size_t count,
   const double rmax = 2.0001;
   double all[BINS], expected[BINS], sum[BINS] = {0};
   double *rest = calloc(3 * b.n, sizeof *rest);
-  CHECK(correlation_count(b.n, b.x, box, rmax, BINS, all, expected) ==
+  CHECK(correlation_count(b.n, b.x, box, rmax, BINS, NULL, all, expected) ==
         GSL_SUCCESS);
   memcpy(rest, b.x, 3 * b.n * sizeof *rest);
   memcpy(rest + 3 * centre, b.x + 3 * (b.n - 1), 3 * sizeof *rest);
-  CHECK(correlation_count(b.n - 1, rest, box, rmax, BINS, sum, expected) ==
-        GSL_SUCCESS);
+  CHECK(correlation_count(b.n - 1, rest, box, rmax, BINS, NULL, sum,
+                          expected) == GSL_SUCCESS);
   for (size_t k = 0; k < BINS; k++) {
     double want = 0;
     for (size_t s = 0; s < count; s++)
@@ -83,7 +83,7 @@ static void test_expected(void) {
     x[i] = box[2 * (i % 3)] +
            (box[2 * (i % 3) + 1] - box[2 * (i % 3)]) * gsl_rng_uniform(rng);
   const double diagonal = sqrt(1 + 2.5 * 2.5 + 0.64) * 1.0001;
-  CHECK(correlation_count(N, x, box, diagonal, BINS, pairs, expected) ==
+  CHECK(correlation_count(N, x, box, diagonal, BINS, NULL, pairs, expected) ==
         GSL_SUCCESS);
   for (size_t k = 0; k < BINS; k++) {
     sum += expected[k];
@@ -98,17 +98,21 @@ static void test_expected(void) {
   for (size_t i = 0; i < 3 * N; i++)
     x[i] = 5 + 0.01 * gsl_rng_uniform(rng);
   const double large[6] = {0, 10, 0, 10, 0, 10};
-  CHECK(correlation_count(N, x, large, 2, 2, pairs, expected) == GSL_SUCCESS);
+  CHECK(correlation_count(N, x, large, 2, 2, NULL, pairs, expected) ==
+        GSL_SUCCESS);
   CHECK_REL(expected[0], N * (N - 1) / 2. * 4 * M_PI / 3 / 1000, 8 * eps);
   CHECK_REL(expected[1], N * (N - 1) / 2. * 4 * M_PI / 3 * 7 / 1000, 8 * eps);
   CHECK(pairs[0] == N * (N - 1) / 2. && pairs[1] == 0);
   gsl_rng_free(rng);
 
   x[4] = GSL_NAN;
-  CHECK(correlation_count(N, x, large, 2, 2, pairs, expected) == GSL_EINVAL);
-  CHECK(correlation_count(1, x, large, 2, 2, pairs, expected) == GSL_SUCCESS);
+  CHECK(correlation_count(N, x, large, 2, 2, NULL, pairs, expected) ==
+        GSL_EINVAL);
+  CHECK(correlation_count(1, x, large, 2, 2, NULL, pairs, expected) ==
+        GSL_SUCCESS);
   CHECK(pairs[0] == 0 && expected[0] == 0);
-  CHECK(correlation_count(0, x, large, 2, 2, pairs, expected) == GSL_SUCCESS);
+  CHECK(correlation_count(0, x, large, 2, 2, NULL, pairs, expected) ==
+        GSL_SUCCESS);
   CHECK(pairs[0] == 0 && expected[0] == 0);
 }
 
@@ -122,7 +126,7 @@ static void test_random_points(unsigned long seed) {
   gsl_rng_set(rng, seed);
   for (size_t i = 0; i < 3 * N; i++)
     x[i] = box[2 * (i % 3) + 1] * gsl_rng_uniform(rng);
-  CHECK(correlation_count(N, x, box, 0.6, BINS, pairs, expected) ==
+  CHECK(correlation_count(N, x, box, 0.6, BINS, NULL, pairs, expected) ==
         GSL_SUCCESS);
   double chi2 = 0, all = 0, want = 0;
   for (size_t k = 0; k < BINS; k++) {
@@ -178,7 +182,7 @@ static void test_order(const char *name, size_t neighbours, double q4,
   CHECK(lattice_bed(&l, 6, &b, &centre) == GSL_SUCCESS);
   struct bond_order *o = calloc(b.n, sizeof *o);
   for (int turned = 0; turned < 2; turned++) {
-    CHECK(bond_order_find(b.n, b.x, cutoff, o) == GSL_SUCCESS);
+    CHECK(bond_order_find(b.n, b.x, cutoff, NULL, o) == GSL_SUCCESS);
     const struct bond_order *c = &o[centre];
     CHECK(c->neighbours == neighbours);
     CHECK_CLOSE(c->q4, q4, 1e-9);
@@ -223,7 +227,7 @@ static void test_averages(void) {
     x[i] = gsl_rng_uniform(rng);
   gsl_rng_free(rng);
   const double cutoff = 0.35;
-  CHECK(bond_order_find(N, x, cutoff, o) == GSL_SUCCESS);
+  CHECK(bond_order_find(N, x, cutoff, NULL, o) == GSL_SUCCESS);
   double u[N][N][3];
   bool near[N][N];
   size_t count[N] = {0};
@@ -258,15 +262,19 @@ static void test_averages(void) {
   }
 
   /* no neighbours, one, and the same place twice */
-  CHECK(bond_order_find(2, (double[]){0, 0, 0, 2, 0, 0}, 1, o) == GSL_SUCCESS);
+  CHECK(bond_order_find(2, (double[]){0, 0, 0, 2, 0, 0}, 1, NULL, o) ==
+        GSL_SUCCESS);
   CHECK(o[0].neighbours == 0 && o[0].q6 == 0 && o[0].qbar6 == 0);
   CHECK(bond_order_class(&o[0], 0.4) == BOND_DISORDERED);
-  CHECK(bond_order_find(2, (double[]){0, 0, 0, 0, 0, -1}, 1, o) == GSL_SUCCESS);
+  CHECK(bond_order_find(2, (double[]){0, 0, 0, 0, 0, -1}, 1, NULL, o) ==
+        GSL_SUCCESS);
   CHECK(o[0].neighbours == 1);
   CHECK_CLOSE(o[0].q4, 1, 16 * eps);
   CHECK_CLOSE(o[1].qbar6, 1, 16 * eps);
-  CHECK(bond_order_find(2, (double[]){1, 2, 3, 1, 2, 3}, 1, o) == GSL_EDOM);
-  CHECK(bond_order_find(1, (double[]){1, GSL_NAN, 3}, 1, o) == GSL_EINVAL);
+  CHECK(bond_order_find(2, (double[]){1, 2, 3, 1, 2, 3}, 1, NULL, o) ==
+        GSL_EDOM);
+  CHECK(bond_order_find(1, (double[]){1, GSL_NAN, 3}, 1, NULL, o) ==
+        GSL_EINVAL);
 }
 
 int main(void) {

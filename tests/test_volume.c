@@ -1018,8 +1018,8 @@ static void test_sampled(void) {
     random_box(rng, -0.3, 1.3, box);
     const size_t count = 1 + gsl_rng_uniform_int(rng, 16);
     naive_sampled(n, x, r, box, count, &want_sum, &want_all);
-    bool ok =
-        CHECK(volume_sampled(n, x, r, box, count, &sum, &all) == GSL_SUCCESS);
+    bool ok = CHECK(volume_sampled(n, x, r, box, count, NULL, &sum, &all) ==
+                    GSL_SUCCESS);
     ok &= CHECK_REL(sum, want_sum, ULPS(8));
     ok &= CHECK_REL(all, want_all, ULPS(8));
     if (!ok)
@@ -1029,7 +1029,7 @@ static void test_sampled(void) {
   const double grid[6] = {0, 3, 0, 3, 0, 3}, mid[3] = {1.5, 1.5, 1.5};
   const double reach[4] = {0, 1, 0.999999, -1}, want[4] = {1, 7, 1, 0};
   for (int i = 0; i < 4; i++) {
-    CHECK(volume_sampled(1, mid, reach + i, grid, 3, &sum, &all) ==
+    CHECK(volume_sampled(1, mid, reach + i, grid, 3, NULL, &sum, &all) ==
           GSL_SUCCESS);
     CHECK_REL(sum, want[i], ULPS(2));
     CHECK_REL(all, want[i], ULPS(2));
@@ -1037,18 +1037,22 @@ static void test_sampled(void) {
   /* outside, huge, not a number */
   const double odd[9] = {9, 9, 9, 1e300, 0, 0, GSL_NAN, 1, 1};
   const double odd_r[3] = {1, 1, 1};
-  CHECK(volume_sampled(3, odd, odd_r, grid, 3, &sum, &all) == GSL_SUCCESS);
+  CHECK(volume_sampled(3, odd, odd_r, grid, 3, NULL, &sum, &all) ==
+        GSL_SUCCESS);
   CHECK(sum == 0 && all == 0);
   const double huge = 1e100;
-  CHECK(volume_sampled(1, mid, &huge, grid, 3, &sum, &all) == GSL_SUCCESS);
+  CHECK(volume_sampled(1, mid, &huge, grid, 3, NULL, &sum, &all) ==
+        GSL_SUCCESS);
   CHECK_CLOSE(all, 27, ULPS(54));
-  CHECK(volume_sampled(1, mid, &huge, grid, 0, &sum, &all) == GSL_SUCCESS);
+  CHECK(volume_sampled(1, mid, &huge, grid, 0, NULL, &sum, &all) ==
+        GSL_SUCCESS);
   CHECK(sum == 0 && all == 0);
   const double flat[6] = {0, 1, 0, 0, 0, 1};
-  CHECK(volume_sampled(1, mid, &huge, flat, 3, &sum, &all) == GSL_SUCCESS);
+  CHECK(volume_sampled(1, mid, &huge, flat, 3, NULL, &sum, &all) ==
+        GSL_SUCCESS);
   CHECK(sum == 0 && all == 0);
   sum = all = -7;
-  CHECK(volume_sampled(1, mid, &huge, grid, SIZE_MAX / 2, &sum, &all) ==
+  CHECK(volume_sampled(1, mid, &huge, grid, SIZE_MAX / 2, NULL, &sum, &all) ==
         GSL_ENOMEM);
   CHECK(sum == -7 && all == -7);
 
@@ -1066,7 +1070,8 @@ static void test_sampled(void) {
   printf("midpoints  error of sum  of union\n");
   for (size_t count = 8; count <= 128; count *= 2) {
     const double step = 1 / (double)count;
-    CHECK(volume_sampled(30, x, r, unit, count, &sum, &all) == GSL_SUCCESS);
+    CHECK(volume_sampled(30, x, r, unit, count, NULL, &sum, &all) ==
+          GSL_SUCCESS);
     printf("%6zu^3    %12.3g %9.3g\n", count, sum - exact_sum, all - exact_all);
     const double tol = 4 * sqrt(surface / 12) * step * step;
     CHECK_CLOSE(sum, exact_sum, tol);

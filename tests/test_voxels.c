@@ -304,7 +304,8 @@ static void test_midpoint(gsl_rng *rng) {
     const struct spheres s = random_spheres(rng, 30, 0.05, 0.25);
     double *f = grid(&s, box, cells, VOXELS_MIDPOINT, 1, 30);
     double sum, united, whole = 0.9 * 0.9 * 0.9 / 27000;
-    CHECK(volume_sampled(s.n, s.x, s.r, box, 30, &sum, &united) == GSL_SUCCESS);
+    CHECK(volume_sampled(s.n, s.x, s.r, box, 30, NULL, &sum, &united) ==
+          GSL_SUCCESS);
     CHECK(fabs(sum_of(f, 27000) - united / whole) < 0.5); /* whole numbers */
     free(f);
   }

@@ -276,6 +276,12 @@ static bool reaches(const double *c, double r, const void *box) {
 
 int volume_union(size_t n, const double *x, const double *r,
                  const double box[6], double *volume) {
+  return volume_union_told(n, x, r, box, NULL, volume);
+}
+
+int volume_union_told(size_t n, const double *x, const double *r,
+                      const double box[6], const struct observer *observer,
+                      double *volume) {
   for (int k = 0; k < 6; k++)
     if (isnan(box[k]))
       return GSL_EINVAL;
@@ -285,8 +291,10 @@ int volume_union(size_t n, const double *x, const double *r,
     return status;
   double(*planes)[4] = calloc(p->most + 6, sizeof *planes);
   struct sum sum = {0, 0};
-  for (size_t i = 0; i < p->n && planes; i++)
+  for (size_t i = 0; i < p->n && planes; i++) {
+    observer_tell(observer, i, p->n);
     sum_add(&sum, cell_volume(p, i, box, planes));
+  }
   if (planes)
     *volume = sum.total + sum.lost;
   power_free(p);
@@ -341,7 +349,8 @@ static size_t mark(const double c[3], double r, const double box[6],
 }
 
 int volume_sampled(size_t n, const double *x, const double *r,
-                   const double box[6], size_t count, double *sum,
+                   const double box[6], size_t count,
+                   const struct observer *observer, double *sum,
                    double *united) {
   if (count == 0 || empty(box)) {
     *sum = *united = 0;
@@ -353,9 +362,11 @@ int volume_sampled(size_t n, const double *x, const double *r,
   if (!marks)
     return GSL_ENOMEM;
   size_t hits = 0, fresh = 0;
-  for (size_t i = 0; i < n; i++)
+  for (size_t i = 0; i < n; i++) {
+    observer_tell(observer, i, n);
     if (r[i] >= 0)
       hits += mark(x + 3 * i, r[i], box, count, marks, &fresh);
+  }
   free(marks);
   const double points = (double)count * (double)count * (double)count;
   const double whole =

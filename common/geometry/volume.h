@@ -14,6 +14,7 @@
 #define VOLUME_H
 
 #include <stddef.h>
+#include "geometry/observer.h"
 
 /* Ball of radius r about the origin inside every half-space
    {x: normal.x <= offset}; planes: count rows of {nx, ny, nz, offset} with unit
@@ -32,12 +33,17 @@ double volume_sum(size_t n, const double *x, const double *r,
    GSL_EINVAL for coordinates that are not finite, GSL_ENOMEM. */
 int volume_union(size_t n, const double *x, const double *r,
                  const double box[6], double *volume);
+/* The same, and tells an observer, which may be NULL. */
+int volume_union_told(size_t n, const double *x, const double *r,
+                      const double box[6], const struct observer *observer,
+                      double *volume);
 
 /* The paper's count on count^3 midpoints of a box: sum counts a point once for
-   every sphere that it lies in, united once. Returns GSL_SUCCESS,
-   GSL_ENOMEM. */
+   every sphere that it lies in, united once. observer may be NULL. Returns
+   GSL_SUCCESS, GSL_ENOMEM. */
 int volume_sampled(size_t n, const double *x, const double *r,
-                   const double box[6], size_t count, double *sum,
+                   const double box[6], size_t count,
+                   const struct observer *observer, double *sum,
                    double *united);
 
 #endif

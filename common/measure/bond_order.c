@@ -114,7 +114,7 @@ enum bond_class bond_order_class(const struct bond_order *o, double least) {
 }
 
 int bond_order_find(size_t n, const double *x, double cutoff,
-                    struct bond_order *order) {
+                    const struct observer *observer, struct bond_order *order) {
   struct neighbors near = {0};
   double *no_radius = calloc(n + 1, sizeof *no_radius);
   struct harmonics *q = calloc(n + 1, sizeof *q);
@@ -131,6 +131,7 @@ int bond_order_find(size_t n, const double *x, double cutoff,
     const size_t i = near.i[p], j = near.j[p];
     struct harmonics y;
     double u[3];
+    observer_tell(observer, p, near.count + n);
     vec3_sub(x + 3 * i, x + 3 * j, u);
     if (!find_harmonics(u, &y)) {
       status = GSL_EDOM;
@@ -152,6 +153,7 @@ int bond_order_find(size_t n, const double *x, double cutoff,
   struct couplings symbols;
   find_couplings(&symbols);
   for (size_t i = 0; i < n; i++) {
+    observer_tell(observer, near.count + i, near.count + n);
     divide(&mean[i], order[i].neighbours + 1);
     order[i].q4 = invariant(&q[i], FOUR, 4);
     order[i].q6 = invariant(&q[i], SIX, 6);

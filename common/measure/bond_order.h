@@ -6,6 +6,7 @@
 #define BOND_ORDER_H
 
 #include <stddef.h>
+#include "geometry/observer.h"
 
 struct bond_order {
   size_t neighbours;
@@ -36,6 +37,6 @@ enum bond_class bond_order_class(const struct bond_order *o, double least);
    zeros. Returns GSL_SUCCESS, GSL_EINVAL for a coordinate that is not finite,
    GSL_EDOM where two points are one, GSL_ENOMEM. Safe in any thread. */
 int bond_order_find(size_t n, const double *x, double cutoff,
-                    struct bond_order *order);
+                    const struct observer *observer, struct bond_order *order);
 
 #endif

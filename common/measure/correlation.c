@@ -57,8 +57,8 @@ static void add_shells(const double x[3], const double box[6], double rmax,
 }
 
 int correlation_count(size_t n, const double *x, const double box[6],
-                      double rmax, size_t bins, double *pairs,
-                      double *expected) {
+                      double rmax, size_t bins, const struct observer *observer,
+                      double *pairs, double *expected) {
   double *count = calloc(3 * bins + 1, sizeof *count);
   if (!count)
     return GSL_ENOMEM;
@@ -68,8 +68,10 @@ int correlation_count(size_t n, const double *x, const double box[6],
     free(count);
     return status;
   }
-  for (size_t i = 0; i < n; i++)
+  for (size_t i = 0; i < n; i++) {
+    observer_tell(observer, i, n);
     add_shells(x + 3 * i, box, rmax, bins, volume, whole);
+  }
   const double density = n ? ((double)n - 1) / box_volume(box) : 0;
   for (size_t k = 0; k < bins; k++) {
     const double shell =

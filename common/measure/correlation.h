@@ -5,6 +5,7 @@
 #define CORRELATION_H
 
 #include <stddef.h>
+#include "geometry/observer.h"
 
 /* For bins of equal width from 0 to rmax (m): pairs[k], the number of
    pairs of points at a distance in [k, k + 1) rmax/bins, and expected[k], the
@@ -15,7 +16,7 @@
    box. Returns GSL_SUCCESS, GSL_EINVAL for a coordinate that is not finite,
    GSL_ENOMEM. Safe in any thread. */
 int correlation_count(size_t n, const double *x, const double box[6],
-                      double rmax, size_t bins, double *pairs,
-                      double *expected);
+                      double rmax, size_t bins, const struct observer *observer,
+                      double *pairs, double *expected);
 
 #endif

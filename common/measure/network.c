@@ -73,13 +73,13 @@ int network_find(struct network *w, const struct scene *s, const struct bed *b,
                  double reach) {
   struct neighbors near = {0};
   network_free(w);
-  reach = GSL_MAX(reach, s->law.lmax);
   const int status = neighbors_find(&near, b->n, b->x, 3, b->r, reach);
   if (status != GSL_SUCCESS) {
     neighbors_free(&near);
     return status;
   }
-  const size_t all = near.count + count_walls(s, b, reach);
+  const double wall_reach = GSL_MAX(reach, s->law.lmax);
+  const size_t all = near.count + count_walls(s, b, wall_reach);
   w->at = malloc((all + 1) * sizeof *w->at);
   if (!w->at) {
     neighbors_free(&near);
@@ -97,7 +97,7 @@ int network_find(struct network *w, const struct scene *s, const struct bed *b,
   for (size_t i = 0; i < b->n; i++)
     for (size_t k = 0; k < s->walls_count; k++) {
       const double gap = wall_gap(s, b, i, k);
-      if (gap <= reach)
+      if (gap <= wall_reach)
         set_wall(&w->at[w->count++], s, b, i, k, gap);
     }
   if (!apart)

@@ -27,11 +27,13 @@ struct network {
   struct network_contact *at; /* pairs by (i, j), then walls by (i, j) */
 };
 
-/* Lists every pair and every sphere and wall whose gap is at most reach (m)
-   or, if that is more, lmax; beyond lmax there is no force. All of them count
-   until network_mark. Returns GSL_SUCCESS; GSL_EDOM where two centres are one,
-   GSL_EINVAL for a number that is not finite, GSL_ENOMEM, with an empty list.
-   w begins as zeros, or holds what was found before, which is freed. */
+/* Lists every pair whose gap is at most reach (m), and every sphere and wall
+   whose gap is at most reach or, if that is more, lmax, so that loads on walls
+   are whole. Beyond lmax there is no force; with a reach of lmax and more all
+   forces are listed. All of them count until network_mark. Returns GSL_SUCCESS;
+   GSL_EDOM where two centres are one, GSL_EINVAL for a number that is not
+   finite, GSL_ENOMEM, with an empty list. w begins as zeros, or holds what was
+   found before, which is freed. */
 int network_find(struct network *w, const struct scene *s, const struct bed *b,
                  double reach);
 void network_free(struct network *w);

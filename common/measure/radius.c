@@ -116,35 +116,47 @@ struct target {
   const double *x, *box;
   double *radii, volume;
   bool sum;
-  int status;
+  int status; /* of the first volume that failed */
+  const struct observer *observer;
+  size_t volumes; /* made so far */
 };
+
+/* A root takes some so many volumes. */
+enum { VOLUMES = 20 };
 
 /* Volume beyond the one that is wanted. */
 static double excess(double r, void *params) {
   struct target *t = params;
   double volume = GSL_NAN;
+  observer_tell(t->observer, GSL_MIN(t->volumes, VOLUMES - 1), VOLUMES);
+  t->volumes++;
   for (size_t i = 0; i < t->n; i++)
     t->radii[i] = r;
   if (t->sum)
     volume = volume_sum(t->n, t->x, t->radii, t->box);
   else if (t->status == GSL_SUCCESS)
     t->status = volume_union(t->n, t->x, t->radii, t->box, &volume);
-  return volume - t->volume;
+  /* an end to the search for the root, which is then thrown away */
+  return t->status == GSL_SUCCESS ? volume - t->volume : 0;
 }
 
 int radius_of_fraction(size_t n, const double *x, const double box[6],
-                       double fraction, bool sum, double *r) {
+                       double fraction, bool sum,
+                       const struct observer *observer, double *r) {
   const double volume = box_volume(box);
   if (n == 0 || !(fraction > 0) || (!sum && fraction >= 1) || !(volume > 0))
     return GSL_EDOM;
-  struct target t = {
-      n,   x,          box, malloc(n * sizeof *t.radii), fraction * volume,
-      sum, GSL_SUCCESS};
+  struct target t = {.n = n,
+                     .x = x,
+                     .box = box,
+                     .radii = malloc(n * sizeof *t.radii),
+                     .volume = fraction * volume,
+                     .sum = sum,
+                     .observer = observer};
   gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
-  if (!t.radii || !solver) {
-    t.status = GSL_ENOMEM;
+  int status = GSL_ENOMEM;
+  if (!t.radii || !solver)
     goto done;
-  }
   gsl_function f = {excess, &t};
   /* the volume without any overlap: the root is not below */
   double low = 0, high = cbrt(t.volume / (double)n * 3 / (4 * M_PI));
@@ -152,24 +164,23 @@ int radius_of_fraction(size_t n, const double *x, const double box[6],
     low = high;
     high *= 1.5;
   }
-  if (t.status == GSL_SUCCESS && !(excess(high, &t) >= 0))
-    t.status = GSL_EDOM;
-  if (t.status != GSL_SUCCESS ||
-      (t.status = gsl_root_fsolver_set(solver, &f, low, high)) != GSL_SUCCESS)
-    goto done;
-  for (int k = 0; k < 200; k++) {
-    t.status = gsl_root_fsolver_iterate(solver);
-    if (t.status != GSL_SUCCESS ||
-        gsl_root_test_interval(gsl_root_fsolver_x_lower(solver),
+  status = GSL_EDOM;
+  if (excess(high, &t) >= 0)
+    status = gsl_root_fsolver_set(solver, &f, low, high);
+  for (int k = 0; k < 200 && status == GSL_SUCCESS; k++) {
+    status = gsl_root_fsolver_iterate(solver);
+    if (gsl_root_test_interval(gsl_root_fsolver_x_lower(solver),
                                gsl_root_fsolver_x_upper(solver), 0,
                                4 * GSL_DBL_EPSILON) == GSL_SUCCESS)
       break;
   }
-  if (t.status == GSL_SUCCESS)
+  if (t.status != GSL_SUCCESS)
+    status = t.status;
+  if (status == GSL_SUCCESS)
     *r = gsl_root_fsolver_root(solver);
 done:
   if (solver)
     gsl_root_fsolver_free(solver);
   free(t.radii);
-  return t.status;
+  return status;
 }

@@ -9,6 +9,7 @@
 #define RADIUS_H
 
 #include <stdbool.h>
+#include "geometry/observer.h"
 #include "model/scene.h"
 
 /* Overlaps at a radius, in diameters, of pairs of spheres and of spheres and
@@ -36,6 +37,7 @@ int radius_contact_mean(const struct scene *s, size_t n, const double *x,
    union of them (fraction below 1), or their sum. Returns as radius_touching,
    GSL_EDOM if there is no such radius. */
 int radius_of_fraction(size_t n, const double *x, const double box[6],
-                       double fraction, bool sum, double *r);
+                       double fraction, bool sum,
+                       const struct observer *observer, double *r);
 
 #endif

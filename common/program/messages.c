@@ -24,7 +24,27 @@ const char *program_verb(void) {
   return verb;
 }
 
+static bool status_shown;
+
+void status_line(const char *format, ...) {
+  va_list args;
+  va_start(args, format);
+  fprintf(stderr, "\r%s: ", name);
+  vfprintf(stderr, format, args);
+  fputs(" \033[K", stderr);
+  va_end(args);
+  fflush(stderr);
+  status_shown = true;
+}
+
+void status_clear(void) {
+  if (status_shown)
+    fputs("\r\033[K", stderr);
+  status_shown = false;
+}
+
 static void message(const char *format, va_list args) {
+  status_clear();
   fprintf(stderr, "%s: ", name);
   vfprintf(stderr, format, args);
 }

@@ -30,6 +30,11 @@ _Noreturn void die_status(int status, const char *format, ...)
 /* The same as die without leaving. */
 void warn(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
+/* A line on a terminal's standard error that is no message: the next one, or a
+   message, takes its place. program/progress.h says when. */
+void status_line(const char *format, ...) __attribute__((format(printf, 1, 2)));
+void status_clear(void);
+
 /* Flushes standard output; exits with EXIT_IO if anything was not written,
    without a word if nobody reads it any more. */
 void finish_output(void);

@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#define _POSIX_C_SOURCE 200809L
+#include "program/progress.h"
+
+#include <poll.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+#include <unistd.h>
+#include "program/messages.h"
+
+static const double every = 0.5; /* s */
+
+static double now(void) {
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+struct progress progress_begin(bool quiet) {
+  struct progress p = {.shows = !quiet && isatty(STDERR_FILENO),
+                       .begun = now()};
+  p.looked = p.begun;
+  return p;
+}
+
+void progress_restart(struct progress *p) {
+  p->begun = now();
+}
+
+void progress_name(struct progress *p, const char *format, ...) {
+  va_list args;
+  va_start(args, format);
+  vsnprintf(p->what, sizeof p->what, format, args);
+  va_end(args);
+}
+
+/* Rows go to whoever waits for them; if nobody does any more, all is done. */
+static void pass_on(void) {
+  struct pollfd out = {.fd = STDOUT_FILENO};
+  if (ferror(stdout) || fflush(stdout) != 0)
+    finish_output(); /* does not return */
+  if (poll(&out, 1, 0) == 1 && out.revents & POLLERR)
+    exit(EXIT_IO);
+}
+
+static void show(const struct progress *p, double done, double elapsed) {
+  const char *separator = *p->what ? "  " : "";
+  if (done > 0)
+    status_line("%3.0f %%%s%s  %.0f s left", 100 * done, separator, p->what,
+                elapsed * (1 - done) / done);
+  else
+    status_line("%s%s%.0f s", p->what, separator, elapsed);
+}
+
+void progress_tell(struct progress *p, double done) {
+  const double t = now();
+  if (t < p->looked + every)
+    return;
+  p->looked = t;
+  pass_on();
+  if (p->shows)
+    show(p, done, t - p->begun);
+}
+
+void progress_end(struct progress *p) {
+  (void)p;
+  status_clear();
+}

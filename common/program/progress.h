@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How far long work has got: a line on standard error, if that is a terminal,
+   with the share done and the time left. Work tells what it has done as often
+   as it likes; twice a second the line is written anew, rows on standard output
+   are passed on, and a reader of them that has gone away ends the program. Of
+   one thread. Tested in tests/test_progress.sh. */
+#ifndef PROGRESS_H
+#define PROGRESS_H
+
+#include <stdbool.h>
+
+struct progress {
+  bool shows;           /* a terminal, and not quiet */
+  double begun, looked; /* on the wall's clock (s) */
+  char what[80];        /* the work's own words */
+};
+
+/* Begins the clock. */
+struct progress progress_begin(bool quiet);
+
+/* What is being done, for the line; any text until the next call. */
+void progress_name(struct progress *p, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+/* The share done, from 0 to 1; negative where nobody knows, and the line has
+   the time taken instead. */
+void progress_tell(struct progress *p, double done);
+
+/* The clock begins anew, for other work. */
+void progress_restart(struct progress *p);
+
+/* The line goes, until there is more to tell. */
+void progress_end(struct progress *p);
+
+#endif
