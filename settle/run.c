@@ -81,10 +81,12 @@ static void write_log(struct run *r) {
 
 static bool at_rest(struct run *r) {
   const struct motion *m = r->motion;
-  return rest_watch_see(
-      &r->rest, integrate_time(m->integrator),
-      dynamics_fastest(m->dynamics, integrate_state(m->integrator)),
-      r->set->scene.law.vmin);
+  double fastest =
+      dynamics_fastest(m->dynamics, integrate_state(m->integrator));
+  if (motion_multirate(m)) /* within the step too */
+    fastest = GSL_MAX(fastest, multirate_fastest(motion_multirate(m)));
+  return rest_watch_see(&r->rest, integrate_time(m->integrator), fastest,
+                        r->set->scene.law.vmin);
 }
 
 /* The exit status of a run that ends at t for what was found, and in reason

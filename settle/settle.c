@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* settle: integrates a bed of spheres, from the paper's start or from a file,
    and writes its frames. */
+#include <string.h>
 #include "platform/system.h"
 #include "run.h"
 #include "program/integration.h"
@@ -77,6 +78,9 @@ int main(int argc, char **argv) {
   struct bed_header header = {0};
   start_make(&s, options, &bed, &header);
   integration_check(&s.integrate, bed.n);
+  if (!integrate_method(s.integrate.method)->type && strcmp(s.pairs, "cells"))
+    die(EXIT_USAGE, "--pairs %s: not for --method %s", s.pairs,
+        s.integrate.method);
   if (s.time < bed.t)
     die(EXIT_USAGE, "--time %g: the start is at t=%g already", s.time, bed.t);
   s.threads = system_threads(s.threads);

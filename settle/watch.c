@@ -347,6 +347,17 @@ void watch_end(struct watch *w, bool failed) {
   run_watch_end(w->run, failed);
 }
 
+static void write_levels(const struct multirate *m, FILE *out) {
+  const struct multirate_report r = multirate_report(m);
+  for (int k = 0; k < MULTIRATE_LEVELS; k++) {
+    fprintf(out, "level%d_steps\t%zu\n", k, r.steps[k]);
+    fprintf(out, "level%d_rejected\t%zu\n", k, r.rejected[k]);
+    fprintf(out, "level%d_evaluations\t%zu\n", k, r.evaluations[k]);
+    fprintf(out, "level%d_spheres\t%.4g\n", k, r.rows[k]);
+  }
+  fprintf(out, "partners_joined\t%zu\n", r.again);
+}
+
 void watch_stats(const struct watch *w, FILE *out, double t_end,
                  int exit_status) {
   const struct dynamics *d = w->motion->dynamics;
@@ -358,6 +369,9 @@ void watch_stats(const struct watch *w, FILE *out, double t_end,
   fprintf(out, "kernel\t%s\n", dynamics_kernel(d));
   fprintf(out, "pair_list_builds\t%zu\n", counts.builds);
   fprintf(out, "contacts_listed\t%zu\n", counts.contacts);
+  fprintf(out, "contact_evaluations\t%.0f\n", counts.contacts_evaluated);
+  if (motion_multirate(w->motion))
+    write_levels(motion_multirate(w->motion), out);
   if (w->stiff.follow)
     fprintf(out, "watch_evaluations\t%zu\n", w->stiff.evaluations);
   fprintf(out, "overlap_deepest\t%.4g\n", w->deepest);

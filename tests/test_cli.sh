@@ -211,12 +211,29 @@ help_says() { # PROGRAM OPTION DEFAULT
 }
 check 'bounce --help: control' help_says bounce control standard
 check 'bounce --help: tol' help_says bounce tol 1e-10
-check 'settle --help: control' help_says settle control 'paper; predictive for rkc'
+check 'settle --help: control' help_says settle control \
+  'paper; predictive for rkc; local for multirate'
 check 'settle --help: tol' help_says settle tol \
-  '0.1 for paper; 0.0005 for standard; 0.0005 for predictive'
+  '0.1 for paper; 0.0005 for standard; 0.0005 for predictive; 0.0005 for local'
 for name in merson rkc verlet paper predictive basic rotation; do
   check "settle --help: $name" grep -Eq "^ +$name +[a-zA-Z]" <("$B/settle" --help)
 done
+refuse 'multirate with another control' 2 \
+  '^settle: --method multirate: expected --control local ' \
+  settle --method multirate --control paper
+refuse 'its control with another method' 2 \
+  '^settle: --control local: not for --method rkc ' settle --method rkc --control local
+refuse 'multirate with a relative tolerance' 2 \
+  '^settle: --method multirate: has no relative tolerance ' \
+  settle --method multirate --reltol 1e-3
+refuse 'multirate with a fixed step' 2 \
+  '^settle: --method multirate: has no fixed step ' \
+  settle --method multirate --step 1e-3
+refuse 'multirate with all pairs' 2 \
+  '^settle: --pairs all: not for --method multirate ' \
+  settle --method multirate --pairs all
+refuse 'bounce has no spheres to take apart' 2 '^bounce: --method multirate: ' \
+  bounce --method multirate --control local
 refuse 'two numbers for gravity' 2 '--gravity.*expected one.*three' \
   settle --gravity 1,2
 refuse 'wall without a normal' 2 '--wall 0,0,0,0,0,0: expected' \

@@ -20,7 +20,8 @@
 enum { DIM = 4 };
 
 /* Those with an error estimate, for a control to choose the step by; the rest
-   is verlet. */
+   is verlet, and multirate, which needs spheres: loops over controls end before
+   its own, which is the last. */
 static const char *const adaptive_methods[] = {
     "merson", "dopri5", "rkf45", "rkck", "rk8pd", "rkc", "msbdf", NULL};
 
@@ -145,7 +146,7 @@ static void test_tolerance(void) {
   const double end = 5;
   for (size_t m = 0; adaptive_methods[m]; m++) {
     double most = 0;
-    for (size_t c = 0; integrate_controls[c].name; c++)
+    for (size_t c = 0; integrate_controls[c].alloc; c++)
       for (int k = 0; k < 2; k++) {
         struct oscillators o = {0};
         const struct integrate_problem p = oscillators(&o);
@@ -225,7 +226,7 @@ static void test_scale(void) {
   struct oscillators o = {0};
   struct integrate_problem p = oscillators(&o);
   struct integrate_options opt = options("merson");
-  for (size_t c = 0; integrate_controls[c].name; c++) {
+  for (size_t c = 0; integrate_controls[c].alloc; c++) {
     opt = options("merson");
     opt.control = integrate_controls[c].name;
     if (!strcmp(opt.control, "paper"))
@@ -296,7 +297,7 @@ static void test_options(void) {
     opt.hinit = no_step[k];
     CHECK(refused(&opt, &p));
   }
-  for (size_t c = 0; integrate_controls[c].name; c++) {
+  for (size_t c = 0; integrate_controls[c].alloc; c++) {
     struct integrate_options opt = options("merson");
     opt.control = integrate_controls[c].name;
     opt.tol = -1;
@@ -315,7 +316,7 @@ static void test_options(void) {
     for (size_t m = 0; adaptive_methods[m]; m++)
       listed += !strcmp(integrate_methods[methods].name, adaptive_methods[m]);
   CHECK(listed == COUNT(adaptive_methods) - 1);
-  CHECK(methods == listed + 1);
+  CHECK(methods == listed + 2); /* verlet; multirate: test_multirate.c */
 
   /* no control is looked at where steps are fixed */
   struct integrate_options opt = options("merson");
@@ -327,7 +328,7 @@ static void test_options(void) {
 
   /* verlet: without a fixed step, without positions, with rows that do not
      add up to the unknowns or have no room for the velocities */
-  for (size_t c = 0; integrate_controls[c].name; c++) {
+  for (size_t c = 0; integrate_controls[c].alloc; c++) {
     opt = options("verlet");
     opt.control = integrate_controls[c].name;
     CHECK(refused(&opt, &p));
@@ -380,7 +381,8 @@ static void test_tables(void) {
     const struct integrate_problem p = oscillators(&o);
     double y[DIM] = {0};
     struct integrator *it = NULL;
-    CHECK((integrate_alloc(&it, &opt, &p, 0, y) == GSL_EINVAL) == c->per_time);
+    CHECK((integrate_alloc(&it, &opt, &p, 0, y) == GSL_EINVAL) ==
+          (c->per_time || !c->alloc));
     integrate_free(it);
   }
   for (const struct integrate_method *m = integrate_methods; m->name; m++) {
@@ -397,7 +399,8 @@ static void test_tables(void) {
         p.system.jacobian = NULL;
       if (!(k & 4))
         p.positions = 0;
-      const bool fits = (k & 1 ? m->fixed : m->estimates) &&
+      /* these have no method of their own */
+      const bool fits = m->type && (k & 1 ? m->fixed : m->estimates) &&
                         (k & 2 || !m->jacobian) && (k & 4 || !m->layout);
       double y[DIM];
       oscillators_exact(0, y);
@@ -430,7 +433,7 @@ static void test_counts(void) {
   } costs[] = {
       {"merson", 5}, {"dopri5", 6}, {"rkf45", 6}, {"rkck", 6}, {"rk8pd", 13}};
   for (size_t m = 0; m < COUNT(costs); m++)
-    for (size_t c = 0; integrate_controls[c].name; c++) {
+    for (size_t c = 0; integrate_controls[c].alloc; c++) {
       struct oscillators o = {0};
       const struct integrate_problem p = oscillators(&o);
       struct integrate_options opt = options(costs[m].method);
@@ -589,7 +592,7 @@ static void test_interpolation_ends(void) {
 /* Asking changes nothing. */
 static void test_interpolation_free(void) {
   for (size_t m = 0; adaptive_methods[m]; m++)
-    for (size_t c = 0; integrate_controls[c].name; c++) {
+    for (size_t c = 0; integrate_controls[c].alloc; c++) {
       struct oscillators o[2] = {{0}, {0}};
       const struct integrate_problem p[2] = {oscillators(&o[0]),
                                              oscillators(&o[1])};
@@ -628,7 +631,7 @@ static double limit(const double y[], const double dydt[], void *params) {
 
 static void test_limits(void) {
   for (size_t m = 0; adaptive_methods[m]; m++)
-    for (size_t c = 0; integrate_controls[c].name; c++)
+    for (size_t c = 0; integrate_controls[c].alloc; c++)
       for (int way = 1; way < 4; way++) {
         struct oscillators o = {0};
         struct integrate_problem p = oscillators(&o);
@@ -716,7 +719,7 @@ static void test_collapse(void) {
 
 static void test_fixed(void) {
   for (size_t m = 0; integrate_methods[m].name; m++) {
-    if (!strcmp(integrate_methods[m].name, "msbdf"))
+    if (!integrate_methods[m].fixed)
       continue; /* has no fixed steps, see test_options */
     struct oscillators o = {0};
     struct integrate_problem p = oscillators(&o);
@@ -807,7 +810,7 @@ static double far(const double y[], const double dydt[], void *params) {
    inside is found. */
 static void test_region_avoided(void) {
   for (size_t m = 0; adaptive_methods[m]; m++)
-    for (size_t c = 0; integrate_controls[c].name; c++) {
+    for (size_t c = 0; integrate_controls[c].alloc; c++) {
       struct bounded b = {100, 1, -2, 3, 0};
       const struct integrate_problem p = {
           .system = {bounded_f, bounded_jacobian, 1, &b}, .scale = ones};
@@ -834,7 +837,7 @@ static void test_region_avoided(void) {
    fixed 100 evaluations is more than any attempt of these takes. */
 static void test_region_entered(void) {
   for (size_t m = 0; adaptive_methods[m]; m++)
-    for (size_t c = 0; integrate_controls[c].name; c++)
+    for (size_t c = 0; integrate_controls[c].alloc; c++)
       for (int limited = 0; limited < 2; limited++) {
         /* y = 2 (1 - exp(-t ln 2)) reaches 1 at t = 1 */
         struct bounded b = {M_LN2, 2, -1, 1, 0};
@@ -917,7 +920,7 @@ static void test_fixed_failure(void) {
 static void test_fixed_refused(void) {
   const int codes[] = {GSL_EBADFUNC, GSL_EFAULT, GSL_ENOMEM, GSL_FAILURE};
   for (size_t m = 0; integrate_methods[m].name; m++) {
-    if (!strcmp(integrate_methods[m].name, "msbdf"))
+    if (!integrate_methods[m].fixed)
       continue; /* has no fixed steps, see test_options */
     for (size_t k = 0; k <= COUNT(codes); k++) {
       const bool stiff = k == COUNT(codes);
@@ -969,7 +972,7 @@ static int noise_jacobian(double t, const double y[], double *dfdy,
 static void test_control_gives_up(void) {
   const double most = log(1e17) / -log(0.9) * 100;
   for (size_t m = 0; adaptive_methods[m]; m++)
-    for (size_t c = 0; integrate_controls[c].name; c++) {
+    for (size_t c = 0; integrate_controls[c].alloc; c++) {
       if (integrate_controls[c].per_time)
         continue; /* takes any step below 1e-9 */
       size_t calls = 0;
@@ -1061,6 +1064,8 @@ static void test_single_failure(void) {
 static void test_stop(void) {
   const double stops[] = {1.7, 1.7 + 1. / 3};
   for (size_t m = 0; integrate_methods[m].name; m++) {
+    if (!integrate_methods[m].type)
+      continue; /* a problem's own: tests/test_multirate.c */
     const bool fixed = !strcmp(integrate_methods[m].name, "verlet");
     struct oscillators o = {0}, q = {0};
     struct integrate_problem p = oscillators(&o), free_run = oscillators(&q);

@@ -149,6 +149,30 @@ static int make_verlet(const struct sample *s) {
   return make_motion(s, options("verlet", NULL));
 }
 
+static int make_multirate(const struct sample *s) {
+  return make_motion(s, options("multirate", "local"));
+}
+
+/* The allocations of a run, spheres that meet and part; a few at a time, so
+   that there are as many failures as steps to fail. */
+static int run_multirate(const struct sample *s) {
+  struct motion *m = NULL;
+  const size_t stop = failing > calls ? failing : 0;
+  failing = 0;
+  if (motion_alloc(&m, &s->scene, &s->bed, options("multirate", "local"),
+                   &(struct dynamics_options){.threads = 1},
+                   0.01) != GSL_SUCCESS)
+    abort();
+  calls = 0;
+  failing = stop;
+  int status = GSL_SUCCESS;
+  while (integrate_time(m->integrator) < 0.3 && status == GSL_SUCCESS)
+    status = integrate_step(m->integrator);
+  failing = 0;
+  motion_free(m);
+  return status;
+}
+
 static int make_over_floor(const struct sample *s) {
   struct scene scene = scene_default();
   struct motion *m = NULL;
@@ -376,9 +400,10 @@ static void check_each(const char *what, int (*make)(const struct sample *),
 }
 
 int main(void) {
-  struct sample few, many;
+  struct sample few, some, many;
   gsl_set_error_handler_off();
   sample_alloc(&few, 3);
+  sample_alloc(&some, 12);
   sample_alloc(&many, MANY);
   check_each("scene", make_scene, &few, 4);
   check_each("bed", make_bed, &few, 5);
@@ -388,6 +413,8 @@ int main(void) {
   check_each("paper", make_paper, &few, 16);
   check_each("standard", make_standard, &few, 16);
   check_each("verlet", make_verlet, &few, 15);
+  check_each("multirate", make_multirate, &few, 40);
+  check_each("run of multirate", run_multirate, &some, 30);
   check_each("over the floor", make_over_floor, &few, 22);
   check_each("first evaluation", first_evaluation, &few, 4);
   check_each("first evaluation in order", first_evaluation, &many, 6);
@@ -414,6 +441,7 @@ int main(void) {
   check_each("radius of a fraction", find_radius_of_fraction, &few, 100);
   check_each("voxels", find_voxels, &few, 10);
   sample_free(&few);
+  sample_free(&some);
   sample_free(&many);
   return check_done();
 }

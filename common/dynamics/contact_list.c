@@ -12,6 +12,9 @@
    on it. */
 static const double build_cost = 4;
 
+/* The widest skin, in radii. */
+static const double most_skin = 2;
+
 /* From so many spheres on, rows are put in the order of space, so that
    partners are near each other in memory. */
 enum { REORDER = 1024 };
@@ -41,6 +44,7 @@ void contact_list_free(struct contact_list *l) {
   free(l->in_i);
   free(l->in_j);
   free(l->reference);
+  free(l->scratch);
   free(l);
 }
 
@@ -119,7 +123,7 @@ int contact_list_alloc(struct contact_list **out, const struct scene *s,
   if (!l)
     return GSL_ENOMEM;
   l->rows = b->n;
-  l->threads = threads;
+  l->threads = l->most_threads = threads;
   l->walls_count = s->walls_count;
   int status = reserve_rows(l, s->walls_count, threads);
   if (status == GSL_SUCCESS)
@@ -163,7 +167,7 @@ static void tune_skin(struct contact_list *l) {
   const double factor = sqrt(build_cost / GSL_MAX(idle, 1e-3));
   const double r = l->radius[0];
   l->skin *= GSL_MIN(GSL_MAX(factor, 0.7), 1.4);
-  l->skin = GSL_MIN(GSL_MAX(l->skin, 0.02 * r), 2 * r);
+  l->skin = GSL_MIN(GSL_MAX(l->skin, 0.02 * r), most_skin * r);
 }
 
 static void list_walls(struct contact_list *l, const double *y) {
@@ -204,14 +208,12 @@ static void split_rows(struct contact_list *l) {
 
 /* Room for the sums in flight: a chunk of rows and their furthest partner. */
 static int reserve_sums(struct contact_list *l) {
-  size_t span = 0, size = 1;
-  for (size_t p = 0; p < l->near.count; p++)
-    span = GSL_MAX(span, (size_t)(l->near.j[p] - l->near.i[p]));
-  while (size < span + 2 * CONTACT_CHUNK)
+  size_t size = 1;
+  while (size < l->span + 2 * CONTACT_CHUNK)
     size *= 2;
   if (size > l->sums_size) {
     free(l->sums);
-    l->sums = allocate(l->threads * size, CONTACT_SUM * sizeof *l->sums);
+    l->sums = allocate(l->most_threads * size, CONTACT_SUM * sizeof *l->sums);
     l->sums_size = l->sums ? size : 0;
     if (!l->sums)
       return GSL_ENOMEM;
@@ -252,7 +254,7 @@ static void pass_incoming(struct contact_list *l, bool note, size_t *next) {
       p++;
     for (size_t q = l->near.first[i]; q < l->near.first[i + 1]; q++) {
       const uint32_t j = l->near.j[q];
-      if (j < l->part[p].to)
+      if (j < l->part[p].to || j >= l->rows)
         continue;
       size_t *at = &next[part_of(l, j)];
       if (note) {
@@ -282,19 +284,32 @@ static int list_incoming(struct contact_list *l) {
   return GSL_SUCCESS;
 }
 
-static int build(struct contact_list *l, const double *y) {
+int contact_list_share(struct contact_list *l) {
+  split_rows(l);
+  const int status = list_incoming(l);
+  return status == GSL_SUCCESS ? reserve_sums(l) : status;
+}
+
+static size_t largest_span(const struct neighbors *near) {
+  size_t span = 0;
+  for (size_t p = 0; p < near->count; p++)
+    span = GSL_MAX(span, (size_t)(near->j[p] - near->i[p]));
+  return span;
+}
+
+/* For states within the way of y. */
+static int build(struct contact_list *l, const double *y, double way) {
   if (l->age != SIZE_MAX)
     tune_skin(l);
+  l->skin = GSL_MAX(l->skin, 2 * way);
   l->age = SIZE_MAX; /* stays so if anything below fails */
   int status = neighbors_find(&l->near, l->rows, y, l->stride, l->radius,
                               l->law.lmax + l->skin);
   if (status == GSL_SUCCESS) {
     list_walls(l, y);
-    split_rows(l);
-    status = list_incoming(l);
+    l->span = largest_span(&l->near);
+    status = contact_list_share(l);
   }
-  if (status == GSL_SUCCESS)
-    status = reserve_sums(l);
   if (status != GSL_SUCCESS)
     return status == GSL_EINVAL ? GSL_EBADFUNC : status;
   for (size_t i = 0; i < l->rows; i++)
@@ -304,10 +319,9 @@ static int build(struct contact_list *l, const double *y) {
   return GSL_SUCCESS;
 }
 
-int contact_list_update(struct contact_list *l, const double y[]) {
-  if (l->age == SIZE_MAX)
-    return build(l, y);
-  const double most = 0.25 * l->skin * l->skin;
+/* Whether y is sound, and how far any sphere is from its reference, squared. */
+static bool measure_way(const struct contact_list *l, const double *y,
+                        double *squared) {
   double furthest = 0;
   bool sound = true; /* a maximum keeps a NaN out */
 #pragma omp parallel for num_threads((int)l->threads) schedule(static)         \
@@ -320,11 +334,40 @@ int contact_list_update(struct contact_list *l, const double y[]) {
     furthest = furthest > moved ? furthest : moved;
     sound = sound && moved == moved;
   }
-  if (!sound)
+  *squared = furthest;
+  return sound;
+}
+
+int contact_list_update(struct contact_list *l, const double y[]) {
+  return contact_list_hold(l, y, 0);
+}
+
+double contact_list_longest_way(const struct contact_list *l) {
+  return most_skin * l->radius[0] / 2;
+}
+
+int contact_list_hold(struct contact_list *l, const double y[], double way) {
+  double moved;
+  if (l->age == SIZE_MAX)
+    return build(l, y, way);
+  if (!measure_way(l, y, &moved))
     return GSL_EBADFUNC;
+  const double most = 0.5 * l->skin - way;
   const bool too_wide = skin_overhead(l) * (double)l->age > 8 * build_cost &&
                         l->skin > 0.03 * l->radius[0];
-  if (furthest > most || too_wide)
-    return build(l, y);
+  if (most < 0 || moved > most * most || too_wide)
+    return build(l, y, way);
   return GSL_SUCCESS;
+}
+
+bool contact_list_holds(const struct contact_list *l, const double y[]) {
+  double moved;
+  return measure_way(l, y, &moved) && moved <= 0.25 * l->skin * l->skin;
+}
+
+double contact_list_speed(const struct contact_list *l, size_t row,
+                          const double y[]) {
+  const double v = vec3_norm(y + ROW_V);
+  return l->has.rotation ? GSL_MAX(v, l->radius[row] * vec3_norm(y + ROW_W))
+                         : v;
 }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A bed as the evaluation of its forces needs it: rows in an order that is good
-   for memory, the pairs of rows and the walls near enough to matter, and which
-   thread computes what. The kernels, the Jacobian and the survey read it. Not
-   in the paper. One list per integration. Tested in
-   tests/test_dynamics.c. */
+/* A bed, or a part of one, as the evaluation of its forces needs it: rows in an
+   order that is good for memory, the pairs of rows and the walls near enough to
+   matter, and which thread computes what. The kernels, the Jacobian and the
+   survey read it. contact_subset.h makes lists of parts. Not in the paper. One
+   integration at a time. Tested in tests/test_dynamics.c. */
 #ifndef CONTACT_LIST_H
 #define CONTACT_LIST_H
 
@@ -44,9 +44,16 @@ struct contact_list {
   size_t walls_count;
   struct wall *walls;
 
-  size_t rows, stride;   /* number of rows, doubles in each */
-  size_t *order;         /* sphere of the bed in each row */
-  double *radius, *mass; /* by row */
+  /* Rows that have rates, doubles in each; after them a part of a bed has
+     ghosts: rows that are partners only. */
+  size_t rows, stride, ghosts;
+  /* Sphere of the bed in each row; of a part, row of what it is part of. */
+  size_t *order;
+  double *radius, *mass;        /* by row */
+  size_t rows_size, walls_size; /* room of a part's arrays */
+  /* Rates that contacts beside this list give each row, its length each, the
+     positions' unused; NULL: there are none. Not owned. */
+  const double *frozen;
 
   /* Contacts: pairs of rows i < j in near, then rows against walls. Row i's
      begin at near.first[i] and wall_first[i], which have rows + 1 entries. */
@@ -57,10 +64,11 @@ struct contact_list {
   /* One part per thread. A pair with its partners in two parts is computed in
      both: those that come into part p from earlier ones are in_i[q], in_j[q],
      incoming[p] <= q < incoming[p + 1], ascending. */
-  size_t threads;
+  size_t threads, most_threads; /* in use, there is room for */
   struct contact_part *part;
   double *sums; /* of all parts */
   size_t sums_size;
+  size_t span; /* at least the largest difference of the rows of a pair */
   size_t *incoming, incoming_size;
   uint32_t *in_i, *in_j;
 
@@ -70,6 +78,9 @@ struct contact_list {
   double skin;       /* m */
   size_t age; /* evaluations since it was built; SIZE_MAX: there is none */
   size_t builds;
+
+  void *scratch; /* of contact_subset.c */
+  size_t scratch_size;
 };
 
 /* Prepares the list of a scene and its spheres; keeps no pointer to either.
@@ -84,5 +95,26 @@ void contact_list_free(struct contact_list *l);
    built, since contacts beyond lmax add zero and their order is that of the
    rows. */
 int contact_list_update(struct contact_list *l, const double y[]);
+
+/* Pairs and walls: what an evaluation over the list computes. */
+static inline size_t contact_list_size(const struct contact_list *l) {
+  return l->near.count + l->wall_contacts;
+}
+
+/* The longest way of a sphere (m) that the list can be made to hold for, and
+   making it hold for every state within the way of y; then whether it holds for
+   y. Errors as above. */
+double contact_list_longest_way(const struct contact_list *l);
+int contact_list_hold(struct contact_list *l, const double y[], double way);
+bool contact_list_holds(const struct contact_list *l, const double y[]);
+
+/* The larger of a row's own speed and that of its surface, |v| or r |w| (m/s),
+   given its unknowns. */
+double contact_list_speed(const struct contact_list *l, size_t row,
+                          const double y[]);
+
+/* Parts, pairs that come into them and room for sums, of a list whose contacts
+   and span are new. GSL_SUCCESS, GSL_ENOMEM. */
+int contact_list_share(struct contact_list *l);
 
 #endif

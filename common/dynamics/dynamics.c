@@ -7,18 +7,10 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include "dynamics/allpairs.h"
-#include "dynamics/contact_list.h"
+#include "dynamics/internal.h"
 #include "dynamics/jacobian.h"
-#include "dynamics/kernel.h"
 #include "dynamics/rates.h"
 #include "model/travel.h"
-
-struct dynamics {
-  struct contact_list *list;
-  const struct kernel *kernel;
-  struct dynamics_options options;
-  size_t evaluations;
-};
 
 void dynamics_free(struct dynamics *d) {
   if (!d)
@@ -54,9 +46,10 @@ size_t dynamics_dimension(const struct dynamics *d) {
 
 struct dynamics_counts dynamics_counts(const struct dynamics *d) {
   const struct contact_list *l = d->list;
-  return (struct dynamics_counts){.evaluations = d->evaluations,
+  return (struct dynamics_counts){.evaluations = (size_t)(d->evaluations + 0.5),
+                                  .contacts_evaluated = d->contacts,
                                   .builds = l->builds,
-                                  .contacts = l->near.count + l->wall_contacts};
+                                  .contacts = contact_list_size(l)};
 }
 
 const char *dynamics_kernel(const struct dynamics *d) {
@@ -106,6 +99,7 @@ static int evaluate_list(struct dynamics *d, const double *y,
   if (status != GSL_SUCCESS)
     return status;
   d->list->age++;
+  d->contacts += (double)contact_list_size(d->list);
   return rates_evaluate(d->list, d->kernel, y, to);
 }
 
@@ -197,11 +191,7 @@ double dynamics_potential(struct dynamics *d, const double y[]) {
 double dynamics_fastest(const struct dynamics *d, const double y[]) {
   const struct contact_list *l = d->list;
   double fastest = 0;
-  for (size_t i = 0; i < l->rows; i++) {
-    const double *row = y + i * l->stride;
-    fastest = GSL_MAX(fastest, vec3_norm(row + ROW_V));
-    if (l->has.rotation)
-      fastest = GSL_MAX(fastest, l->radius[i] * vec3_norm(row + ROW_W));
-  }
+  for (size_t i = 0; i < l->rows; i++)
+    fastest = GSL_MAX(fastest, contact_list_speed(l, i, y + i * l->stride));
   return fastest;
 }

@@ -26,8 +26,11 @@ struct dynamics_options {
 };
 
 struct dynamics_counts {
-  size_t evaluations, builds; /* of the right-hand side, of the pair list */
-  size_t contacts;            /* in the list now: pairs and walls */
+  /* Of the right-hand side, where that of a part of the bed counts by its share
+     of the contacts; of the pair list. */
+  size_t evaluations, builds;
+  size_t contacts;           /* in the list now: pairs and walls */
+  double contacts_evaluated; /* so far; 0 for all pairs */
 };
 
 /* Prepares a scene and its spheres; keeps no pointer to either. GSL_EINVAL if

@@ -362,22 +362,27 @@ INLINE void add_walls(const struct contact_list *list, const double *y,
 INLINE bool finish(const struct contact_list *list, const double *y,
                    double *rates, size_t from, size_t to,
                    const struct contact_part *part,
-                   const struct contact_features has) {
+                   const struct contact_features has, const bool frozen) {
   const size_t stride = has.rotation ? ROW_SPIN : ROW_PLAIN;
   double checksum = 0;
   for (size_t i = from; i < to; i++) {
     const double *state = y + i * stride;
     double *rate = rates + (i - from) * stride, *sum = sum_of(part, i);
+    const double *more = frozen ? list->frozen + i * stride : NULL;
     const double inverse_mass = 1 / list->mass[i];
     for (int c = 0; c < 3; c++) {
       rate[c] = state[ROW_V + c];
       rate[ROW_V + c] = list->gravity[c] + inverse_mass * sum[c];
+      if (frozen)
+        rate[ROW_V + c] += more[ROW_V + c];
       checksum += rate[c] + rate[ROW_V + c];
     }
     if (has.rotation) {
       const double scale = -2.5 * inverse_mass / list->radius[i];
       for (int c = 0; c < 3; c++) {
         rate[ROW_W + c] = scale * sum[4 + c];
+        if (frozen)
+          rate[ROW_W + c] += more[ROW_W + c];
         checksum += rate[ROW_W + c] + 0 * state[ROW_W + c]; /* free spins too */
       }
     }
@@ -429,11 +434,12 @@ static void add_walls_any(const struct contact_list *list, const double *y,
 static bool finish_any(const struct contact_list *list, const double *y,
                        double *rates, size_t from, size_t to,
                        const struct contact_part *part) {
-  struct contact_features has = {.rotation = true};
+  const struct contact_features turning = {.rotation = true}, plain = {0};
+#define CALL(has, frozen) finish(list, y, rates, from, to, part, has, frozen)
   if (list->has.rotation)
-    return finish(list, y, rates, from, to, part, has);
-  has.rotation = false;
-  return finish(list, y, rates, from, to, part, has);
+    return list->frozen ? CALL(turning, true) : CALL(turning, false);
+  return list->frozen ? CALL(plain, true) : CALL(plain, false);
+#undef CALL
 }
 
 extern const struct kernel JOIN(kernel_, KERNEL_ISA);

@@ -34,20 +34,24 @@ static int start_integrator(struct motion *m, const struct bed *b,
   if (y && scale) {
     dynamics_pack(m->dynamics, b, y);
     dynamics_scale(m->dynamics, scale);
-    status =
-        integrate_alloc(&m->integrator, o,
-                        &(struct integrate_problem){
-                            .system = {.function = rhs,
-                                       .jacobian = jacobian,
-                                       .dimension = dim,
-                                       .params = m},
-                            .scale = scale,
-                            .row = dynamics_stride(m->dynamics),
-                            .positions = ROW_V,
-                            .step_limit = m->travel > 0 ? step_limit : NULL,
-                            .stage = d->all_pairs ? NULL : stage,
-                            .threads = d->threads},
-                        b->t, y);
+    status = integrate_alloc(
+        &m->integrator, o,
+        &(struct integrate_problem){
+            .system = {.function = rhs,
+                       .jacobian = jacobian,
+                       .dimension = dim,
+                       .params = m},
+            .scale = scale,
+            .row = dynamics_stride(m->dynamics),
+            .positions = ROW_V,
+            .step_limit = m->travel > 0 ? step_limit : NULL,
+            .stage = d->all_pairs ? NULL : stage,
+            .threads = d->threads,
+            .engine = &multirate_engine,
+            .engine_params =
+                &(struct multirate_problem){.dynamics = m->dynamics,
+                                            .travel = m->travel}},
+        b->t, y);
   }
   free(scale);
   free(y);
@@ -94,6 +98,10 @@ int motion_alloc_over_floor(struct motion **out, const struct scene *s,
   bed_free(&bed);
   scene_free(&floored);
   return status;
+}
+
+const struct multirate *motion_multirate(const struct motion *m) {
+  return integrate_engine(m->integrator);
 }
 
 void motion_free(struct motion *m) {

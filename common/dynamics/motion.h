@@ -6,6 +6,7 @@
 #define MOTION_H
 
 #include "dynamics/dynamics.h"
+#include "dynamics/multirate.h"
 #include "steppers/integrate.h"
 
 struct motion {
@@ -25,6 +26,9 @@ int motion_alloc(struct motion **out, const struct scene *s,
 int motion_alloc_over_floor(struct motion **out, const struct scene *s,
                             double radius, const double x[3], const double v[3],
                             const struct integrate_options *o, double travel);
+/* The state of method multirate (multirate.h), or NULL. */
+const struct multirate *motion_multirate(const struct motion *m);
+
 void motion_free(struct motion *m);
 
 #endif

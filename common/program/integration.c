@@ -34,6 +34,14 @@ void integration_tol_unset(char *text, size_t size) {
 
 void integration_check(const struct integrate_options *o, size_t spheres) {
   const struct integrate_method *m = integrate_method(o->method);
+  const struct integrate_control *c = integrate_control(o->control);
+  if (!m->type && c != m->control)
+    die(EXIT_USAGE, "--method %s: expected --control %s", m->name,
+        m->control->name);
+  if (m->type && !c->alloc && !(o->step > 0))
+    die(EXIT_USAGE, "--control %s: not for --method %s", c->name, m->name);
+  if (!m->type && o->reltol > 0)
+    die(EXIT_USAGE, "--method %s: has no relative tolerance", m->name);
   if (!m->fixed && o->step > 0)
     die(EXIT_USAGE, "--method %s: has no fixed step", m->name);
   if (m->jacobian && spheres > DENSE_SPHERES)

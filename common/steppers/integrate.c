@@ -8,10 +8,11 @@
 #include <gsl/gsl_math.h>
 #include "steppers/control.h"
 #include "steppers/dopri5.h"
+#include "steppers/hermite.h"
 #include "steppers/merson.h"
 #include "steppers/verlet.h"
 
-enum { PAPER, STANDARD, PREDICTIVE };
+enum { PAPER, STANDARD, PREDICTIVE, LOCAL };
 
 static double absolute_tolerance(const struct integrate_options *o) {
   return o->abstol > 0 ? o->abstol : o->tol;
@@ -57,6 +58,9 @@ const struct integrate_control integrate_controls[] = {
                     .help = "the same, the next step from the last two errors",
                     .tol = 5e-4,
                     .alloc = predictive_alloc},
+    [LOCAL] = {.name = "local",
+               .help = "each sphere's own step, for multirate",
+               .tol = 5e-4},
     {0}};
 
 static void prepare_rkc(gsl_odeiv2_step *s, const struct integrate_problem *p) {
@@ -107,6 +111,11 @@ const struct integrate_method integrate_methods[] = {
      .fixed = true,
      .adapts = true,
      .prepare = prepare_rkc},
+    {.name = "multirate",
+     .help = "rkc with a step for each sphere",
+     .control = &integrate_controls[LOCAL],
+     .estimates = true,
+     .adapts = true},
     {.name = "verlet",
      .help = "velocity Verlet, needs a fixed --step",
      .type = &verlet,
@@ -146,9 +155,11 @@ struct integrator {
   gsl_odeiv2_control *control; /* NULL: fixed step */
   gsl_odeiv2_evolve *evolve;
   double (*step_limit)(const double y[], const double dydt[], void *params);
-  double hmax, fixed, stop;
-  double t, h, last_step;
+  double hmax, fixed, stop, h;
   struct integrate_counts counts;
+  struct integrate_view now;
+  const struct integrate_engine *engine; /* NULL: GSL's evolve takes steps */
+  void *own;                             /* the engine's */
   /* The last step from start to y, for the interpolation; a failed attempt
      overwrites what evolve has of it. */
   double *start, *start_rate, *rate;
@@ -173,6 +184,8 @@ void integrate_free(struct integrator *it) {
     gsl_odeiv2_control_free(it->control);
   if (it->step)
     gsl_odeiv2_step_free(it->step);
+  if (it->engine)
+    it->engine->free(it->own);
   free(it);
 }
 
@@ -181,7 +194,7 @@ static bool options_fit(const struct integrate_options *o,
                         const struct integrate_method *m) {
   const bool fixed = o->step > 0;
   if ((fixed && !m->fixed) || (!fixed && !m->estimates) ||
-      (m->jacobian && !p->system.jacobian))
+      (m->jacobian && !p->system.jacobian) || (!m->type && !p->engine))
     return false;
   if (m->layout && !(p->positions > 0 && 2 * p->positions <= p->row &&
                      p->system.dimension % p->row == 0))
@@ -189,8 +202,29 @@ static bool options_fit(const struct integrate_options *o,
   if (fixed)
     return true;
   const struct integrate_control *c = integrate_control(o->control);
-  return c && o->hinit > 0 && gsl_finite(o->hinit) && o->reltol >= 0 &&
-         (o->tol > 0 || (o->abstol > 0 && !c->per_time));
+  return c && !c->alloc == !m->type && o->hinit > 0 && gsl_finite(o->hinit) &&
+         o->reltol >= 0 && (o->tol > 0 || (o->abstol > 0 && !c->per_time));
+}
+
+static int alloc_engine(struct integrator **out,
+                        const struct integrate_options *o,
+                        const struct integrate_problem *problem, double t,
+                        const double y[]) {
+  struct integrator *it = calloc(1, sizeof *it);
+  if (!it)
+    return GSL_ENOMEM;
+  const int status =
+      problem->engine->alloc(&it->own, o, t, y, problem->engine_params);
+  if (status != GSL_SUCCESS) {
+    free(it);
+    return status;
+  }
+  it->engine = problem->engine;
+  it->system = problem->system;
+  it->stop = GSL_DBL_MAX;
+  it->now = it->engine->view(it->own);
+  *out = it;
+  return GSL_SUCCESS;
 }
 
 int integrate_alloc(struct integrator **out, const struct integrate_options *o,
@@ -200,6 +234,8 @@ int integrate_alloc(struct integrator **out, const struct integrate_options *o,
   const struct integrate_method *m = integrate_method(o->method);
   if (!m || !options_fit(o, problem, m))
     return GSL_EINVAL;
+  if (!m->type)
+    return alloc_engine(out, o, problem, t, y);
   struct integrator *it = calloc(1, sizeof *it + 4 * dim * sizeof *y);
   if (!it)
     return GSL_ENOMEM;
@@ -211,7 +247,11 @@ int integrate_alloc(struct integrator **out, const struct integrate_options *o,
   it->hmax = o->hmax > 0 ? o->hmax : GSL_POSINF;
   it->fixed = o->step;
   it->stop = GSL_DBL_MAX;
-  it->t = t;
+  it->now = (struct integrate_view){.t = t,
+                                    .y = it->y,
+                                    .rate = it->rate,
+                                    .start = it->start,
+                                    .start_rate = it->start_rate};
   it->h = o->hinit;
   memcpy(it->y, y, dim * sizeof *y);
   it->step = gsl_odeiv2_step_alloc(*m->type, dim);
@@ -237,21 +277,21 @@ int integrate_alloc(struct integrator **out, const struct integrate_options *o,
    those before it. */
 static int attempt(struct integrator *it, double *h) {
   gsl_odeiv2_evolve *e = it->evolve;
-  const double t = it->t;
+  const double t = it->now.t;
   const unsigned long failed = e->failed_steps;
   /* not apply_fixed_step, which evaluates the start of every step anew */
   int status = gsl_odeiv2_evolve_apply(e, it->control, it->step, &it->system,
-                                       &it->t, it->stop, h, it->y);
+                                       &it->now.t, it->stop, h, it->y);
   it->counts.rejected += e->failed_steps - failed;
   /* evolve shortens a fixed step that fails, and takes steps too short to move
      the time */
   if (status == GSL_SUCCESS &&
-      (!(it->t > t) ||
-       (it->fixed > 0 && e->last_step != it->fixed && it->t != it->stop)))
+      (!(it->now.t > t) ||
+       (it->fixed > 0 && e->last_step != it->fixed && it->now.t != it->stop)))
     status = GSL_FAILURE;
   if (status != GSL_SUCCESS) {
     memcpy(it->y, e->y0, it->system.dimension * sizeof *it->y);
-    it->t = t;
+    it->now.t = t;
     /* what evolve would take for the derivative may be half written */
     gsl_odeiv2_evolve_reset(e);
     gsl_odeiv2_step_reset(it->step);
@@ -267,7 +307,7 @@ static int first_trial(struct integrator *it, double *h) {
     return GSL_SUCCESS;
   if (e->count == 0) { /* evolve has not evaluated it yet */
     const int status =
-        GSL_ODEIV_FN_EVAL(&it->system, it->t, it->y, e->dydt_out);
+        GSL_ODEIV_FN_EVAL(&it->system, it->now.t, it->y, e->dydt_out);
     if (status != GSL_SUCCESS)
       return status;
   }
@@ -276,18 +316,27 @@ static int first_trial(struct integrator *it, double *h) {
 }
 
 int integrate_stop(struct integrator *it, double t) {
-  if (!(t > it->t))
+  if (!(t > it->now.t))
     return GSL_EINVAL;
   it->stop = t;
   return GSL_SUCCESS;
 }
 
+static int step_engine(struct integrator *it) {
+  const int status = it->engine->step(it->own, it->stop, &it->counts);
+  if (status == GSL_SUCCESS)
+    it->now = it->engine->view(it->own);
+  return status;
+}
+
 int integrate_step(struct integrator *it) {
   const gsl_odeiv2_evolve *e = it->evolve;
   const size_t bytes = it->system.dimension * sizeof *it->y;
-  const double start = it->t;
+  const double start = it->now.t;
   if (start == it->stop)
     return GSL_EDOM;
+  if (it->engine)
+    return step_engine(it);
   /* Below this a step no longer moves t. */
   const double smallest = 4 * GSL_DBL_EPSILON * GSL_MAX(fabs(start), 1e-3);
   double h;
@@ -303,7 +352,7 @@ int integrate_step(struct integrator *it) {
   if (status != GSL_SUCCESS)
     return status == GSL_EBADFUNC ? GSL_FAILURE : status;
   it->counts.accepted++;
-  it->last_step = it->t - start;
+  it->now.last_step = it->now.t - start;
   it->h = h;
   memcpy(it->start, e->y0, bytes);
   memcpy(it->start_rate, e->dydt_in, bytes);
@@ -312,15 +361,15 @@ int integrate_step(struct integrator *it) {
 }
 
 double integrate_time(const struct integrator *it) {
-  return it->t;
+  return it->now.t;
 }
 
 const double *integrate_state(const struct integrator *it) {
-  return it->y;
+  return it->now.y;
 }
 
 double integrate_last_step(const struct integrator *it) {
-  return it->last_step;
+  return it->now.last_step;
 }
 
 struct integrate_counts integrate_counts(const struct integrator *it) {
@@ -328,7 +377,7 @@ struct integrate_counts integrate_counts(const struct integrator *it) {
 }
 
 const double *integrate_derivative(const struct integrator *it) {
-  return it->rate;
+  return it->now.rate;
 }
 
 int integrate_limits(const char *method, struct stiffness_limits *l) {
@@ -342,25 +391,36 @@ int integrate_limits(const char *method, struct stiffness_limits *l) {
   return GSL_SUCCESS;
 }
 
+struct integrate_view integrate_view(const struct integrator *it) {
+  return it->now;
+}
+
+const void *integrate_engine(const struct integrator *it) {
+  return it->own;
+}
+
 struct rkc_report integrate_rkc_report(const struct integrator *it) {
+  if (it->engine)
+    return it->engine->report(it->own);
   return it->step->type == rkc ? rkc_report(it->step) : (struct rkc_report){0};
 }
 
 int integrate_at(const struct integrator *it, double t, double y[]) {
+  const struct integrate_view *v = &it->now;
   const size_t dim = it->system.dimension;
-  const double h = it->last_step;
-  if (t == it->t) {
-    memcpy(y, it->y, dim * sizeof *y);
+  const double h = v->last_step;
+  if (t == v->t) {
+    memcpy(y, v->y, dim * sizeof *y);
     return GSL_SUCCESS;
   }
-  const double s = (t - (it->t - h)) / h;
+  const double s = (t - (v->t - h)) / h;
   if (!(h > 0 && s >= -1e-9 && s <= 1 + 1e-9))
     return GSL_EDOM;
-  /* Hermite basis: 1 - w and w for values, p and q for slopes */
-  const double w = s * s * (3 - 2 * s);
-  const double p = h * s * (1 - s) * (1 - s), q = -h * s * s * (1 - s);
+  const struct hermite w = hermite_at(s, h);
   for (size_t i = 0; i < dim; i++)
-    y[i] = it->start[i] + w * (it->y[i] - it->start[i]) +
-           p * it->start_rate[i] + q * it->rate[i];
+    y[i] =
+        hermite_value(&w, v->start[i], v->start_rate[i], v->y[i], v->rate[i]);
+  if (it->engine)
+    it->engine->at(it->own, t, y);
   return GSL_SUCCESS;
 }

@@ -29,6 +29,7 @@ struct integrate_control {
   double tol;    /* by default */
   bool per_time; /* tol bounds the error per unit step (m/s^2), and abstol and
                     reltol mean nothing; else the error (m/s) */
+  /* NULL: what a problem's own method does by itself */
   int (*alloc)(gsl_odeiv2_control **out, const struct integrate_options *o,
                const double *scale, size_t dim);
 };
@@ -38,7 +39,7 @@ struct integrate_problem;
 /* A method and what tells it from the others. */
 struct integrate_method {
   const char *name, *help;
-  const gsl_odeiv2_step_type *const *type;
+  const gsl_odeiv2_step_type *const *type; /* NULL: the problem's own method */
   const struct integrate_control *control; /* by default */
   bool estimates; /* its error; else it needs a fixed step */
   bool fixed;     /* takes a fixed step */
@@ -62,6 +63,32 @@ const struct integrate_control *integrate_control(const char *name);
    control. */
 void integrate_defaults(struct integrate_options *o);
 
+/* Where an integration is: the state and its rates now and at the start of the
+   last step. */
+struct integrate_view {
+  double t, last_step;
+  const double *y, *rate, *start, *start_rate;
+};
+
+struct integrate_counts {
+  size_t accepted, rejected;
+};
+
+/* A method of a problem's own, which knows more of it than the right-hand side;
+   engine is its state. */
+struct integrate_engine {
+  /* As integrate_alloc; params are the problem's. */
+  int (*alloc)(void **engine, const struct integrate_options *o, double t,
+               const double y[], void *params);
+  void (*free)(void *engine);
+  /* As integrate_step, not beyond stop; puts all steps so far into counts. */
+  int (*step)(void *engine, double stop, struct integrate_counts *counts);
+  struct integrate_view (*view)(const void *engine);
+  struct rkc_report (*report)(const void *engine);
+  /* Mends in y, an interpolation over the last step, what it knows better. */
+  void (*at)(const void *engine, double t, double y[]);
+};
+
 struct integrate_problem {
   gsl_odeiv2_system system;
   /* What standard control measures each unknown's error in: dimension. */
@@ -75,10 +102,9 @@ struct integrate_problem {
      NULL. */
   stage_function *stage;
   int threads; /* that may share vectors of the system's size; 0: one */
-};
-
-struct integrate_counts {
-  size_t accepted, rejected;
+  /* The problem's own method, or NULL. */
+  const struct integrate_engine *engine;
+  void *engine_params;
 };
 
 struct integrator;
@@ -115,10 +141,17 @@ const double *integrate_derivative(const struct integrator *it);
    stiffness, GSL_ENOMEM. */
 int integrate_limits(const char *method, struct stiffness_limits *l);
 
-/* What rkc has found so far, all 0 for other methods. */
+/* All of it. */
+struct integrate_view integrate_view(const struct integrator *it);
+
+/* The state of the problem's own method, or NULL. */
+const void *integrate_engine(const struct integrator *it);
+
+/* What rkc or the problem's own method has found so far, all 0 for others. */
 struct rkc_report integrate_rkc_report(const struct integrator *it);
 
-/* State at a time within the last step, by a cubic Hermite polynomial. Before
+/* State at a time within the last step, by a cubic Hermite polynomial, or by
+   several where the problem's own method made parts of the step. Before
    the first step the start is all there is. GSL_EDOM outside. */
 int integrate_at(const struct integrator *it, double t, double y[]);
 

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lists of a part of the contacts of another list: of some of its rows, with
+   their partners as ghosts, or of those contacts of all rows that are near. Not
+   in the paper. Tested in tests/test_subset.c. */
+#ifndef CONTACT_SUBSET_H
+#define CONTACT_SUBSET_H
+
+#include "dynamics/contact_list.h"
+
+/* What comes nearer than gap (m) within the time h (s) from the state y, whose
+   rows are those of the list, ghosts included. Speeds are taken to grow by up
+   to 30 % on the way. */
+struct contact_reach {
+  const double *y;
+  double h, gap;
+};
+
+/* An empty list for parts of whole, or of its parts. GSL_SUCCESS,
+   GSL_ENOMEM. */
+int contact_subset_alloc(struct contact_list **out,
+                         const struct contact_list *whole);
+
+/* Makes part the list of the marked rows of from, which has as many marks as
+   rows, in their order, and of every contact of theirs within reach; partners
+   that are not marked, ghosts of from among them, become ghosts. GSL_SUCCESS,
+   GSL_ENOMEM. */
+int contact_subset_rows(struct contact_list *part,
+                        const struct contact_list *from, const bool marked[],
+                        const struct contact_reach *reach);
+
+/* Gives the contacts of from within reach to near and the others to far, both
+   with all rows and ghosts of from. GSL_SUCCESS, GSL_ENOMEM. */
+int contact_subset_split(struct contact_list *near, struct contact_list *far,
+                         const struct contact_list *from,
+                         const struct contact_reach *reach);
+
+#endif

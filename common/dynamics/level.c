@@ -1,0 +1,484 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dynamics/level.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_math.h>
+#include "dynamics/contact_subset.h"
+#include "dynamics/rates.h"
+#include "model/travel.h"
+#include "platform/multiversion.h"
+
+/* The estimate grows towards the spectral radius from below; two iterations
+   that differ by less than agreement end the search. */
+static const double safety = 1.2, agreement = 0.1;
+
+/* Power iterations at most, at first and later, and how many steps an estimate
+   serves unless one is rejected. */
+enum { FIRST_ITERATIONS = 50, NEXT_ITERATIONS = 8, ESTIMATE_SERVES = 4 };
+
+/* A step of so many stages takes far contacts once. */
+enum { SPLIT_STAGES = 4 };
+
+/* Share of the tolerance that freezing a far contact may cost, and the largest
+   h lambda of a mode that only frozen contacts hold. */
+static const double frozen_share = 0.05, frozen_stable = 0.05;
+
+int level_alloc(struct level **out, struct level_setting *setting, bool all) {
+  struct contact_list *list = all ? setting->dynamics->list : NULL;
+  struct level *l = calloc(1, sizeof *l);
+  if (!l)
+    return GSL_ENOMEM;
+  l->setting = setting;
+  l->stride = setting->dynamics->list->stride;
+  l->list = list;
+  int status = GSL_SUCCESS;
+  if (!list)
+    status = contact_subset_alloc(&l->list, setting->dynamics->list);
+  if (status == GSL_SUCCESS)
+    status = contact_subset_alloc(&l->near, setting->dynamics->list);
+  if (status == GSL_SUCCESS)
+    status = contact_subset_alloc(&l->far, setting->dynamics->list);
+  if (status == GSL_SUCCESS && list)
+    status = level_reserve(l);
+  if (status != GSL_SUCCESS) {
+    level_free(l);
+    return status;
+  }
+  l->near->frozen = l->frozen;
+  memset(l->far->gravity, 0, sizeof l->far->gravity);
+  if (list)
+    for (size_t i = 0; i < list->rows; i++)
+      l->whole[i] = (uint32_t)i;
+  *out = l;
+  return GSL_SUCCESS;
+}
+
+void level_free(struct level *l) {
+  if (!l)
+    return;
+  if (l->list != l->setting->dynamics->list)
+    contact_list_free(l->list);
+  contact_list_free(l->near);
+  contact_list_free(l->far);
+  double *vectors[] = {l->y0,    l->f0,    l->y1,        l->f1,
+                       l->a,     l->b,     l->direction, l->frozen,
+                       l->cubic, l->error, l->wanted};
+  for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++)
+    free(vectors[k]);
+  free(l->flagged);
+  free(l->refined);
+  free(l->whole);
+  free(l);
+}
+
+/* True if there is room for n doubles, which are new then. */
+static bool renew(double **x, size_t n) {
+  free(*x);
+  *x = calloc(n, sizeof **x);
+  return *x != NULL;
+}
+
+int level_reserve(struct level *l) {
+  l->rows = l->list->rows;
+  l->ghosts = l->list->ghosts;
+  const size_t all = l->rows + l->ghosts;
+  if (all <= l->room)
+    return GSL_SUCCESS;
+  l->room = 0;
+  const size_t room = all + all / 2 + 16;
+  /* rows are loaded four doubles at a time */
+  const size_t vector = room * l->stride + 4;
+  free(l->flagged);
+  free(l->refined);
+  free(l->whole);
+  l->flagged = calloc(room, sizeof *l->flagged);
+  l->refined = calloc(room, sizeof *l->refined);
+  l->whole = calloc(room, sizeof *l->whole);
+  if (!renew(&l->y0, vector) || !renew(&l->f0, vector) ||
+      !renew(&l->y1, vector) || !renew(&l->f1, vector) ||
+      !renew(&l->a, vector) || !renew(&l->b, vector) ||
+      !renew(&l->direction, vector) || !renew(&l->frozen, vector) ||
+      !renew(&l->cubic, 4 * vector) || !renew(&l->error, room) ||
+      !renew(&l->wanted, room) || !l->flagged || !l->refined || !l->whole)
+    return GSL_ENOMEM;
+  l->near->frozen = l->frozen;
+  l->room = room;
+  return GSL_SUCCESS;
+}
+
+/* --- vectors ---------------------------------------------------------------*/
+
+MULTIVERSION
+static void euler(size_t dim, double h, const double *restrict y,
+                  const double *restrict f, double *restrict out) {
+#pragma omp simd
+  for (size_t i = 0; i < dim; i++)
+    out[i] = y[i] + h * f[i];
+}
+
+MULTIVERSION
+static double norm(size_t dim, const double *x) {
+  double sum = 0;
+#pragma omp simd reduction(+ : sum)
+  for (size_t i = 0; i < dim; i++)
+    sum += x[i] * x[i];
+  return sqrt(sum);
+}
+
+MULTIVERSION
+static void evaluate_cubics(size_t n, double s, const double *restrict c,
+                            double *restrict y) {
+#pragma omp simd
+  for (size_t i = 0; i < n; i++)
+    y[i] = c[i] + s * (c[n + i] + s * (c[2 * n + i] + s * c[3 * n + i]));
+}
+
+/* The cubic through y0 and y1 with slopes f0 and f1, h apart. */
+static void fit_cubic(size_t stride, size_t n, double h, const double *y0,
+                      const double *f0, const double *y1, const double *f1,
+                      double *c) {
+  for (size_t k = 0; k < stride; k++) {
+    const double slope = (y1[k] - y0[k]) / h;
+    c[k] = y0[k];
+    c[n + k] = f0[k];
+    c[2 * n + k] = (3 * slope - 2 * f0[k] - f1[k]) / h;
+    c[3 * n + k] = (f0[k] + f1[k] - 2 * slope) / (h * h);
+  }
+}
+
+/* The cubic q of n values at a distance, with its origin moved by s. */
+static void shift_cubic(size_t stride, size_t of, const double *q, double s,
+                        size_t n, double *c) {
+  for (size_t k = 0; k < stride; k++) {
+    const double c1 = q[of + k], c2 = q[2 * of + k], c3 = q[3 * of + k];
+    c[k] = q[k] + s * (c1 + s * (c2 + s * c3));
+    c[n + k] = c1 + s * (2 * c2 + 3 * s * c3);
+    c[2 * n + k] = c2 + 3 * s * c3;
+    c[3 * n + k] = c3;
+  }
+}
+
+/* --- rates -----------------------------------------------------------------*/
+
+void level_ghosts(const struct level *l, double t, double y[]) {
+  evaluate_cubics(l->ghosts * l->stride, t - l->start, l->cubic,
+                  y + l->rows * l->stride);
+}
+
+static void count(const struct level *l, size_t contacts) {
+  struct dynamics *d = l->setting->dynamics;
+  d->contacts += (double)contacts;
+  d->evaluations +=
+      (double)contacts / GSL_MAX((double)contact_list_size(d->list), 1);
+}
+
+static int evaluate(struct level *l, const struct contact_list *list, double t,
+                    double *y, const struct rates_to *to) {
+  count(l, contact_list_size(list));
+  if (l->ghosts)
+    level_ghosts(l, t, y);
+  return rates_evaluate(list, l->setting->dynamics->kernel, y, to);
+}
+
+int level_rates(struct level *l, double t, double y[], double f[]) {
+  l->counts.evaluations++;
+  return evaluate(l, l->list, t, y, &(struct rates_to){.dydt = f});
+}
+
+/* Of the contacts that stages see. */
+static int active_rates(struct level *l, double t, double y[], double f[]) {
+  l->counts.evaluations++;
+  return evaluate(l, l->active, t, y, &(struct rates_to){.dydt = f});
+}
+
+/* --- the spectral radius ---------------------------------------------------*/
+
+/* One iteration: direction <- f(y + small direction) - f(y), whose length over
+   that of the change of y is the estimate. */
+static int power_iterate(struct level *l, double t, double *radius) {
+  const size_t dim = l->rows * l->stride;
+  const double length = norm(dim, l->direction);
+  const double small = sqrt(GSL_DBL_EPSILON) * GSL_MAX(norm(dim, l->y0), 1e-3);
+  euler(dim, small / length, l->y0, l->direction, l->a);
+  l->counts.power_evaluations++;
+  const int status = active_rates(l, t, l->a, l->b);
+  if (status != GSL_SUCCESS)
+    return status;
+  for (size_t i = 0; i < dim; i++)
+    l->direction[i] = l->b[i] - l->f0[i];
+  *radius = norm(dim, l->direction) / small;
+  if (!(*radius > 0)) /* f does not change along it: try another */
+    for (size_t i = 0; i < dim; i++)
+      l->direction[i] = i % 2 ? 1 : -1;
+  return GSL_SUCCESS;
+}
+
+static int estimate_radius(struct level *l, double t) {
+  const size_t dim = l->rows * l->stride;
+  const size_t most = l->known ? NEXT_ITERATIONS : FIRST_ITERATIONS;
+  if (!l->known) {
+    memcpy(l->direction, l->f0, dim * sizeof *l->f0);
+    if (!(norm(dim, l->f0) > 0))
+      for (size_t i = 0; i < dim; i++)
+        l->direction[i] = i % 2 ? 1 : -1;
+    l->radius = 0;
+  }
+  double last = l->radius / safety, radius = 0;
+  for (size_t k = 0; k < most; k++) {
+    const int status = power_iterate(l, t, &radius);
+    if (status != GSL_SUCCESS)
+      return status;
+    if ((last > 0 || k) && fabs(radius - last) <= agreement * radius)
+      break;
+    last = radius;
+  }
+  l->radius = safety * radius;
+  l->served = 0;
+  l->known = true;
+  return GSL_SUCCESS;
+}
+
+/* --- near and far ----------------------------------------------------------*/
+
+/* The gap beyond which contacts may be frozen for a step of length h: their
+   force, were it to vanish, changes velocities by little of the tolerance, and
+   what they hold alone is stable. */
+static double far_gap(const struct level *l, double h) {
+  const struct contact_law *c = &l->list->law;
+  const double mass = l->setting->lightest;
+  double force = frozen_share * l->setting->tol * mass / (0.4 * h);
+  force = GSL_MIN(force, frozen_stable * mass / (c->kappa * h * h));
+  if (l->list->has.friction) /* 1/m + r^2/I is 3.5/m, for both partners */
+    force = GSL_MIN(force, frozen_stable * mass * c->vmin /
+                               (1.5 * c->friction * 7 * h));
+  return GSL_MIN(GSL_MAX(log(c->f0 / force), 1) / c->kappa, c->lmax);
+}
+
+static int split(struct level *l, double t, double h) {
+  const struct contact_reach reach = {.y = l->y0, .h = h, .gap = far_gap(l, h)};
+  if (l->ghosts)
+    level_ghosts(l, t, l->y0);
+  const int status = contact_subset_split(l->near, l->far, l->list, &reach);
+  if (status != GSL_SUCCESS)
+    return status;
+  l->near->frozen = l->frozen;
+  l->active = l->near;
+  return evaluate(l, l->far, t, l->y0, &(struct rates_to){.dydt = l->frozen});
+}
+
+/* --- a step ----------------------------------------------------------------*/
+
+static int take_stages(struct level *l, double t, double h,
+                       const struct chebyshev_scheme *scheme) {
+  const size_t dim = l->rows * l->stride;
+  double *before = l->a, *now = l->b;
+  memcpy(before, l->y0, dim * sizeof *before);
+  euler(dim, h * scheme->w1 * scheme->b1, l->y0, l->f0, now);
+  for (size_t j = 2; j <= scheme->stages; j++) {
+    const struct chebyshev_stage *next = &scheme->stage[j - 2];
+    const struct stage sum = chebyshev_stage(next, h, l->y0, l->f0);
+    l->counts.evaluations++;
+    const int status =
+        evaluate(l, l->active, t + h * next->time, now,
+                 &(struct rates_to){.stage = &sum, .out = before});
+    if (status != GSL_SUCCESS)
+      return status;
+    double *swap = before;
+    before = now;
+    now = swap;
+  }
+  l->a = before;
+  l->b = l->y1;
+  l->y1 = now;
+  return level_rates(l, t + h, l->y1, l->f1);
+}
+
+double level_row_error(const struct level *l, size_t row, const double v[]) {
+  double most = 0, spin = 0;
+  for (int c = 0; c < 3; c++)
+    most = GSL_MAX(most, fabs(v[ROW_V + c]));
+  if (l->list->has.rotation)
+    for (int c = 0; c < 3; c++)
+      spin = GSL_MAX(spin, fabs(v[ROW_W + c]));
+  return GSL_MAX(most, spin * l->list->radius[row]) / l->setting->tol;
+}
+
+double level_row_limit(const struct level *l, size_t row) {
+  const double travel = l->setting->travel;
+  const double *y = l->y0 + row * l->stride, *f = l->f0 + row * l->stride;
+  return travel > 0
+             ? travel_time(vec3_norm(y + ROW_V), vec3_norm(f + ROW_V), travel)
+             : GSL_POSINF;
+}
+
+/* The error of a row that went further than it may: it wants the step that goes
+   so far. */
+static double travel_error(const struct level *l, size_t row, double h) {
+  const double travel = l->setting->travel;
+  const double *y = l->y0 + row * l->stride, *f = l->f0 + row * l->stride;
+  /* (a + b)^2 <= 2 (a^2 + b^2) spares most rows the roots */
+  const double way = vec3_dot(y + ROW_V, y + ROW_V) +
+                     0.25 * h * h * vec3_dot(f + ROW_V, f + ROW_V);
+  if (!(travel > 0) || 2 * h * h * way <= travel * travel)
+    return 0;
+  const double most = level_row_limit(l, row);
+  return h > 1.000001 * most ? gsl_pow_3(1.25 * h / most) : 0;
+}
+
+/* The estimate 0.8 (y0 - y1) + 0.4 h (f0 + f1) of each row in units of the
+   tolerance, positions by 1/kappa. */
+static void estimate_errors(struct level *l, double h) {
+  const struct level_setting *s = l->setting;
+  const double kappa = l->list->law.kappa;
+  for (size_t i = 0; i < l->rows; i++) {
+    const size_t at = i * l->stride;
+    double e[ROW_SPIN], place = 0;
+    for (size_t c = 0; c < l->stride; c++)
+      e[c] = 0.8 * (l->y0[at + c] - l->y1[at + c]) +
+             0.4 * h * (l->f0[at + c] + l->f1[at + c]);
+    for (int c = 0; c < 3; c++)
+      place = GSL_MAX(place, fabs(e[c]));
+    double error = GSL_MAX(level_row_error(l, i, e), place * kappa / s->tol);
+    l->error[i] = GSL_MAX(error, travel_error(l, i, h));
+  }
+}
+
+int level_try(struct level *l, double t, double h) {
+  int status = GSL_SUCCESS;
+  l->active = l->list;
+  if (l->known &&
+      chebyshev_stages(l->setting->chebyshev, h * l->radius) >= SPLIT_STAGES)
+    status = split(l, t, h);
+  if (status == GSL_SUCCESS && (!l->known || l->served >= ESTIMATE_SERVES))
+    status = estimate_radius(l, t);
+  if (status != GSL_SUCCESS)
+    return status;
+  l->stages = chebyshev_stages(l->setting->chebyshev, h * l->radius);
+  if (!l->stages)
+    return GSL_FAILURE;
+  const struct chebyshev_scheme *scheme =
+      chebyshev_scheme(l->setting->chebyshev, l->stages);
+  if (!scheme)
+    return GSL_ENOMEM;
+  status = take_stages(l, t, h, scheme);
+  if (status == GSL_SUCCESS)
+    estimate_errors(l, h);
+  return status;
+}
+
+static void swap_ends(struct level *l) {
+  double *swap = l->y0;
+  l->y0 = l->y1;
+  l->y1 = swap;
+  swap = l->f0;
+  l->f0 = l->f1;
+  l->f1 = swap;
+}
+
+void level_undo(struct level *l) {
+  swap_ends(l);
+  l->counts.steps--;
+  l->counts.rows -= l->rows;
+  l->counts.rejected++;
+}
+
+void level_accept(struct level *l) {
+  swap_ends(l);
+  l->served++;
+  l->counts.steps++;
+  l->counts.rows += l->rows;
+}
+
+/* --- levels of levels ------------------------------------------------------*/
+
+static void copy_row(size_t stride, const double *from, size_t i, double *to,
+                     size_t at) {
+  memcpy(to + at * stride, from + i * stride, stride * sizeof *to);
+}
+
+/* What a row of l does in its step, or went on doing as a ghost. */
+static void make_ghosts(struct level *child, const struct level *l, double t,
+                        double h) {
+  const size_t stride = l->stride, n = child->ghosts * stride;
+  child->start = t;
+  for (size_t q = 0; q < child->ghosts; q++) {
+    const size_t i = child->list->order[child->rows + q], at = i * stride;
+    double *c = child->cubic + q * stride;
+    if (i < l->rows)
+      fit_cubic(stride, n, h, l->y0 + at, l->f0 + at, l->y1 + at, l->f1 + at,
+                c);
+    else
+      shift_cubic(stride, l->ghosts * stride, l->cubic + (i - l->rows) * stride,
+                  t - l->start, n, c);
+  }
+}
+
+int level_refine(struct level *child, const struct level *l, double t,
+                 double h) {
+  const struct contact_law *law = &l->list->law;
+  if (l->ghosts)
+    level_ghosts(l, t, l->y0);
+  const struct contact_reach reach = {
+      .y = l->y0, .h = h, .gap = law->lmax + 2 / law->kappa};
+  int status = contact_subset_rows(child->list, l->list, l->flagged, &reach);
+  if (status == GSL_SUCCESS)
+    status = level_reserve(child);
+  if (status != GSL_SUCCESS)
+    return status;
+  for (size_t a = 0; a < child->rows; a++) {
+    const size_t i = child->list->order[a];
+    copy_row(l->stride, l->y0, i, child->y0, a);
+    copy_row(l->stride, l->f0, i, child->f0, a);
+    copy_row(l->stride, l->direction, i, child->direction, a);
+    const double wants = h * GSL_MAX(0.02, 0.8 / cbrt(l->error[i]));
+    child->wanted[a] =
+        GSL_MIN(l->refined[i] ? GSL_MAX(l->wanted[i], wants) : wants, h);
+    child->refined[a] = false;
+  }
+  for (size_t a = 0; a < child->rows + child->ghosts; a++)
+    child->whole[a] = l->whole[child->list->order[a]];
+  make_ghosts(child, l, t, h);
+  /* its own is at most that of all, as far as a spectral radius is one of a
+     symmetric matrix */
+  child->radius = l->radius;
+  child->known = true;
+  child->served = 0;
+  return GSL_SUCCESS;
+}
+
+/* Rates of the ghosts by the contacts of the list, into the ghosts' rows of
+   b. */
+static int ghost_rates(struct level *l, double t, double *y) {
+  const struct contact_list *list = l->list;
+  const struct kernel *kernel = l->setting->dynamics->kernel;
+  const size_t all = l->rows + l->ghosts;
+  const struct contact_part part = {
+      .to = all, .sums = list->part[0].sums, .mask = list->part[0].mask};
+  count(l, list->near.count);
+  level_ghosts(l, t, y);
+  kernel->add_pairs(list, y, list->near.i, list->near.j, list->near.count,
+                    &part);
+  return kernel->finish(list, y, l->b, 0, all, &part) ? GSL_SUCCESS
+                                                      : GSL_EBADFUNC;
+}
+
+int level_feedback(struct level *child, const struct level *l, double t,
+                   double change[]) {
+  const size_t ghosts = child->ghosts * child->stride;
+  const double *rates = child->b + child->rows * child->stride;
+  for (size_t a = 0; a < child->rows; a++)
+    copy_row(l->stride, l->y1, child->list->order[a], child->a, a);
+  int status = ghost_rates(child, t, child->a);
+  if (status != GSL_SUCCESS)
+    return status;
+  memcpy(change, rates, ghosts * sizeof *change);
+  status = ghost_rates(child, t, child->y0);
+  rates = child->b + child->rows * child->stride;
+  for (size_t k = 0; k < ghosts; k++)
+    change[k] = rates[k] - change[k];
+  return status;
+}

@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Spheres that step together: all of a bed, or those of it that need shorter
+   steps, with their partners as ghosts that move as is known already. A step is
+   one of Runge-Kutta-Chebyshev (steppers/chebyshev.h), with an error for each
+   sphere. Not in the paper. Internal to multirate.c. Tested in
+   tests/test_multirate.c. */
+#ifndef LEVEL_H
+#define LEVEL_H
+
+#include "dynamics/internal.h"
+#include "steppers/chebyshev.h"
+
+/* What all levels of a bed share. */
+struct level_setting {
+  struct dynamics *dynamics;
+  struct chebyshev *chebyshev;
+  double tol;      /* error of a sphere's velocity in a step (m/s) */
+  double lightest; /* sphere (kg) */
+  double travel;   /* furthest that a sphere may go in a step (m), 0: any */
+};
+
+struct level_counts {
+  size_t steps, rejected; /* accepted ones and others */
+  size_t rows;            /* of all accepted steps */
+  size_t evaluations, power_evaluations;
+  size_t refined; /* steps of which a part was taken again in shorter ones */
+  size_t again;   /* times that such a part had to grow */
+};
+
+struct level {
+  struct level_setting *setting;
+  struct contact_list *list;         /* the rows' contacts */
+  struct contact_list *near, *far;   /* parts of it, where the step is split */
+  const struct contact_list *active; /* what stages see: list or near */
+  size_t rows, ghosts, stride;
+  size_t room; /* rows that the arrays have room for */
+
+  /* State and rates at the start of a step and at its end, stages, the
+     direction of the spectral radius, what far contacts give: a row of the
+     list each, ghosts included. */
+  double *y0, *f0, *y1, *f1, *a, *b, *direction, *frozen;
+  /* Ghosts' unknowns are cubics of the time since start: four coefficients,
+     each ghosts * stride. */
+  double *cubic, start;
+
+  double *error;   /* of each row in the last try, 1: the tolerance */
+  double *wanted;  /* the step that each row would take (s) */
+  bool *flagged;   /* rows of the last try that need shorter steps */
+  bool *refined;   /* rows of the last accepted step that took them */
+  uint32_t *whole; /* row of the bed, ghosts included */
+
+  bool known;    /* there is a spectral radius */
+  double radius; /* (1/s) */
+  size_t served; /* steps since it was estimated */
+  size_t stages; /* of the last try */
+  struct level_counts counts;
+};
+
+/* A level of all rows of the bed, or without rows for now. GSL_SUCCESS,
+   GSL_ENOMEM. */
+int level_alloc(struct level **out, struct level_setting *setting, bool all);
+void level_free(struct level *l);
+
+/* Room for the rows and ghosts of the list. GSL_SUCCESS, GSL_ENOMEM. */
+int level_reserve(struct level *l);
+
+/* Puts the ghosts' rows of y to time t. */
+void level_ghosts(const struct level *l, double t, double y[]);
+
+/* The rates f of a state y at time t over all contacts; writes the ghosts' rows
+   of y. GSL_SUCCESS, or GSL_EBADFUNC where they are not finite. */
+int level_rates(struct level *l, double t, double y[], double f[]);
+
+/* One step from y0, f0 at t to y1, f1 and its errors. GSL_SUCCESS; GSL_FAILURE
+   for a step too long for any number of stages and GSL_EBADFUNC where something
+   is not finite, after which shorter steps may do; GSL_ENOMEM. */
+int level_try(struct level *l, double t, double h);
+
+/* Makes y1, f1 the start of the next step; and takes that back. */
+void level_accept(struct level *l);
+void level_undo(struct level *l);
+
+/* Makes child the level of the flagged rows of l, whose step goes from t to
+   t + h: state, ghosts and the steps they want. GSL_SUCCESS, GSL_ENOMEM. */
+int level_refine(struct level *child, const struct level *l, double t,
+                 double h);
+
+/* What the rows of child, now at t + h, change in the rates at the end of l's
+   step: change gets a row for each ghost of child. GSL_SUCCESS,
+   GSL_EBADFUNC. */
+int level_feedback(struct level *child, const struct level *l, double t,
+                   double change[]);
+
+/* Error of a row's change of velocities, 1: the tolerance. */
+double level_row_error(const struct level *l, size_t row, const double v[]);
+
+/* The longest step of a row from y0 by setting->travel (s). */
+double level_row_limit(const struct level *l, size_t row);
+
+#endif

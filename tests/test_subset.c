@@ -1,0 +1,264 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parts of a contact list against the list that they are parts of: the marked
+   rows have the same rates, near and far contacts add up to all of them, and
+   what was left out could not have come within reach. Random cases are numbered
+   by their seeds. */
+#include <float.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_math.h>
+#include <gsl/gsl_randist.h>
+#include <gsl/gsl_rng.h>
+#include <stdlib.h>
+#include <string.h>
+#include "check.h"
+#include "dynamics/contact_subset.h"
+#include "dynamics/rates.h"
+
+static double *numbers(size_t n) {
+  double *x = calloc(n + 1, sizeof *x);
+  if (!x)
+    abort();
+  return x;
+}
+
+static double uniform(gsl_rng *rng, double a, double b) {
+  return a + (b - a) * gsl_rng_uniform(rng);
+}
+
+struct sample {
+  struct contact_list *list;
+  double *y, *rates;
+};
+
+/* n spheres in a box that presses on some of them. */
+static struct sample random_sample(gsl_rng *rng, size_t n, int threads) {
+  struct sample s = {0};
+  struct scene scene = scene_default();
+  struct bed bed;
+  scene.model = (enum scene_model)(gsl_rng_get(rng) % 3);
+  const double side = 0.2 * cbrt((double)n);
+  if (bed_alloc(&bed, n) != GSL_SUCCESS ||
+      scene_add_box(&scene, side, side) != GSL_SUCCESS)
+    abort();
+  const bool equal = gsl_rng_get(rng) % 2;
+  for (size_t i = 0; i < n; i++) {
+    bed.r[i] = equal ? 0.1 : uniform(rng, 0.05, 0.15);
+    bed.m[i] = equal ? 1 : uniform(rng, 0.2, 5);
+    for (int k = 0; k < 3; k++)
+      bed.x[3 * i + k] = uniform(rng, 0, side);
+  }
+  CHECK(contact_list_alloc(&s.list, &scene, &bed, (size_t)threads) ==
+        GSL_SUCCESS);
+  const size_t stride = s.list->stride, dim = n * stride;
+  s.y = numbers(dim);
+  s.rates = numbers(dim);
+  for (size_t i = 0; i < n; i++) {
+    for (int k = 0; k < 3; k++)
+      s.y[i * stride + k] = bed.x[3 * s.list->order[i] + k];
+    for (size_t k = ROW_V; k < stride; k++)
+      s.y[i * stride + k] = uniform(rng, -2, 2);
+  }
+  CHECK(contact_list_update(s.list, s.y) == GSL_SUCCESS);
+  bed_free(&bed);
+  scene_free(&scene);
+  return s;
+}
+
+static void sample_free(struct sample *s) {
+  contact_list_free(s->list);
+  free(s->y);
+  free(s->rates);
+}
+
+static struct contact_list *part_of(const struct contact_list *l) {
+  struct contact_list *part = NULL;
+  if (contact_subset_alloc(&part, l) != GSL_SUCCESS)
+    abort();
+  return part;
+}
+
+static void evaluate(const struct contact_list *l, const double *y,
+                     double *rates) {
+  CHECK(rates_evaluate(l, kernel_select(), y,
+                       &(struct rates_to){.dydt = rates}) == GSL_SUCCESS);
+}
+
+/* The state of a part's rows and ghosts. */
+static double *state_of(const struct contact_list *part, const double *y) {
+  const size_t stride = part->stride;
+  double *own = numbers((part->rows + part->ghosts) * stride);
+  for (size_t a = 0; a < part->rows + part->ghosts; a++)
+    memcpy(own + a * stride, y + part->order[a] * stride, stride * sizeof *own);
+  return own;
+}
+
+/* Sums in another order: rounding of the sum of the forces' sizes, which for
+   these beds, deep overlaps and all, is within 1e6 of each of them. */
+static double worst_of(const struct contact_list *part, const double *got,
+                       const double *want, double scale) {
+  double worst = 0;
+  for (size_t a = 0; a < part->rows; a++)
+    for (size_t c = 0; c < part->stride; c++)
+      worst = GSL_MAX(worst, fabs(got[a * part->stride + c] -
+                                  want[part->order[a] * part->stride + c]));
+  return worst / scale;
+}
+
+static double largest(const double *x, size_t n) {
+  double most = 0;
+  for (size_t i = 0; i < n; i++)
+    most = GSL_MAX(most, fabs(x[i]));
+  return most;
+}
+
+static struct contact_reach everything(const double *y) {
+  return (struct contact_reach){.y = y, .h = 0, .gap = 1e3};
+}
+
+/* Rates of the marked rows, then of some of those among them. */
+static void test_rows(gsl_rng *rng, unsigned long seed) {
+  gsl_rng_set(rng, seed);
+  const size_t n = 1 + gsl_rng_get(rng) % 120;
+  struct sample s = random_sample(rng, n, 1);
+  evaluate(s.list, s.y, s.rates);
+  const double scale = largest(s.rates, n * s.list->stride) + 1;
+  bool *marked = calloc(n, sizeof *marked);
+  const double share = uniform(rng, 0, 1);
+  size_t count = 0;
+  for (size_t i = 0; i < n; i++)
+    count += marked[i] = gsl_rng_uniform(rng) < share;
+  struct contact_list *part = part_of(s.list), *deeper = part_of(s.list);
+  const struct contact_reach all = everything(s.y);
+  CHECK(contact_subset_rows(part, s.list, marked, &all) == GSL_SUCCESS);
+  bool ok = CHECK(part->rows == count);
+  for (size_t a = 0; a < part->rows; a++)
+    ok = ok && marked[part->order[a]] &&
+         (a == 0 || part->order[a] > part->order[a - 1]);
+  for (size_t a = part->rows; a < part->rows + part->ghosts; a++)
+    ok = ok && !marked[part->order[a]];
+  CHECK(ok);
+  double *y = state_of(part, s.y), *rates = numbers(n * s.list->stride);
+  evaluate(part, y, rates);
+  CHECK_CLOSE(worst_of(part, rates, s.rates, scale), 0, 64 * DBL_EPSILON);
+
+  bool *again = calloc(n, sizeof *again);
+  for (size_t a = 0; a < part->rows; a++)
+    again[a] = gsl_rng_uniform(rng) < 0.5;
+  const struct contact_reach within = everything(y);
+  CHECK(contact_subset_rows(deeper, part, again, &within) == GSL_SUCCESS);
+  double *z = state_of(deeper, y), *own = numbers(n * s.list->stride);
+  evaluate(deeper, z, own);
+  if (!CHECK_CLOSE(worst_of(deeper, own, rates, scale), 0, 64 * DBL_EPSILON))
+    fprintf(stderr, "  seed %lu\n", seed);
+  free(z);
+  free(own);
+  free(again);
+  free(y);
+  free(rates);
+  free(marked);
+  contact_list_free(part);
+  contact_list_free(deeper);
+  sample_free(&s);
+}
+
+/* Near and far contacts add up; a far one frozen gives its rates. */
+static void test_split(gsl_rng *rng, unsigned long seed) {
+  gsl_rng_set(rng, seed);
+  const size_t n = 1 + gsl_rng_get(rng) % 120;
+  struct sample s = random_sample(rng, n, 1);
+  evaluate(s.list, s.y, s.rates);
+  const size_t stride = s.list->stride, dim = n * stride;
+  struct contact_list *near = part_of(s.list), *far = part_of(s.list);
+  const struct contact_reach reach = {
+      .y = s.y, .h = uniform(rng, 0, 0.01), .gap = uniform(rng, -0.02, 0.1)};
+  CHECK(contact_subset_split(near, far, s.list, &reach) == GSL_SUCCESS);
+  CHECK(contact_list_size(near) + contact_list_size(far) ==
+        contact_list_size(s.list));
+  double *frozen = numbers(dim), *rates = numbers(dim);
+  memset(far->gravity, 0, sizeof far->gravity);
+  evaluate(far, s.y, frozen);
+  near->frozen = frozen;
+  evaluate(near, s.y, rates);
+  const double scale = largest(s.rates, dim) + 1;
+  if (!CHECK_CLOSE(worst_of(near, rates, s.rates, scale), 0, 64 * DBL_EPSILON))
+    fprintf(stderr, "  seed %lu\n", seed);
+  /* the far ones keep their distance, speeds being as they are */
+  for (size_t q = 0; q < far->near.count; q++) {
+    const size_t i = far->near.i[q], j = far->near.j[q];
+    const double *p = s.y + i * stride, *w = s.y + j * stride;
+    double least = GSL_POSINF;
+    for (double t = 0; t <= reach.h; t += reach.h / 16 + 1e-9) {
+      double u[3];
+      for (int k = 0; k < 3; k++)
+        u[k] = p[k] - w[k] + t * (p[ROW_V + k] - w[ROW_V + k]);
+      least = GSL_MIN(least, vec3_norm(u));
+    }
+    CHECK(least >= far->radius[i] + far->radius[j] + reach.gap);
+  }
+  free(frozen);
+  free(rates);
+  contact_list_free(near);
+  contact_list_free(far);
+  sample_free(&s);
+}
+
+/* Large parts are shared among threads, with the same bits. */
+static void test_threads(gsl_rng *rng) {
+  enum { N = 2500 };
+  double *first = NULL;
+  for (int threads = 1; threads <= 4; threads++) {
+    gsl_rng_set(rng, 7);
+    struct sample s = random_sample(rng, N, threads);
+    bool *marked = calloc(N, sizeof *marked);
+    for (size_t i = 0; i < N; i++)
+      marked[i] = i % 7 > 0;
+    struct contact_list *part = part_of(s.list);
+    const struct contact_reach all = everything(s.y);
+    CHECK(contact_subset_rows(part, s.list, marked, &all) == GSL_SUCCESS);
+    CHECK(part->threads == (size_t)threads);
+    double *y = state_of(part, s.y), *rates = numbers(N * s.list->stride);
+    evaluate(part, y, rates);
+    if (!first)
+      first = rates;
+    else {
+      CHECK(!memcmp(first, rates, part->rows * part->stride * sizeof *rates));
+      free(rates);
+    }
+    free(y);
+    free(marked);
+    contact_list_free(part);
+    sample_free(&s);
+  }
+  free(first);
+}
+
+/* No row, and one without a partner. */
+static void test_empty(gsl_rng *rng) {
+  gsl_rng_set(rng, 1);
+  struct sample s = random_sample(rng, 5, 1);
+  struct contact_list *part = part_of(s.list);
+  bool marked[5] = {false};
+  const struct contact_reach all = everything(s.y);
+  CHECK(contact_subset_rows(part, s.list, marked, &all) == GSL_SUCCESS);
+  CHECK(part->rows == 0 && part->ghosts == 0 && part->near.count == 0);
+  marked[3] = true;
+  const struct contact_reach none = {.y = s.y, .gap = -10};
+  CHECK(contact_subset_rows(part, s.list, marked, &none) == GSL_SUCCESS);
+  CHECK(part->rows == 1 && part->ghosts == 0 && part->near.count == 0);
+  contact_list_free(part);
+  sample_free(&s);
+}
+
+int main(void) {
+  gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+  if (!rng)
+    return 1;
+  for (unsigned long seed = 0; seed < 100; seed++) {
+    test_rows(rng, seed);
+    test_split(rng, seed);
+  }
+  test_threads(rng);
+  test_empty(rng);
+  gsl_rng_free(rng);
+  return check_done();
+}
