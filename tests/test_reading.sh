@@ -92,6 +92,7 @@ refuses four-columns.txt '1: 4 columns without names: expected --columns'
 reads four-columns.txt '0 2' --columns x,y,z,r
 reads five-columns.txt '0 2' --columns -,x,y,z,d
 reads matlab.txt '0 2'
+reads slashes.txt '0 2'
 reads names-again.csv '0 2;0 1'
 reads radius-fifth.xyz '0 9'
 says radius-fifth.xyz '3: the column behind z is taken as the radius'

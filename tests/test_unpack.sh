@@ -60,6 +60,12 @@ printf '\x28\xb5/\n' >"$T/almost"
 "$B/analyze" "$T/almost" >"$T/got" 2>"$T/err"
 check "three bytes of four: status $?" test $? = 3 -a \
   "$(LC_ALL=C grep -ac "$T/almost:1: .*expected a bed" "$T/err")" = 1
+for bytes in '\x1f' '(' '(\xb5/'; do
+  printf "$bytes" >"$T/short"
+  "$B/analyze" "$T/short" >"$T/got" 2>"$T/err"
+  check "a file of less bytes than a packed one: status $?" test $? = 3 -a \
+    "$(LC_ALL=C grep -ac "$T/short:1: .*no end" "$T/err")" = 1
+done
 printf '\x1f\x8bnothing of the kind\n' >"$T/wrong"
 timeout 20 "$B/analyze" "$T/wrong" >"$T/got" 2>"$T/err"
 check "no gzip in spite of its bytes: status $?" test $? = 3

@@ -15,6 +15,7 @@ cat >"$T/right" <<'END'
 cppcheck invalidPointerCast analyze/write_voxels.c: one buffer, of either type
 cppcheck legacyUninitvar common/dynamics/rates.c: an array that a call fills
 cppcheck uninitvar analyze/measure.c: an array that a call fills
+cppcheck memleak common/files/bed_reader.c: the text is kept with its line
 clang-tidy bugprone-integer-division common/model/fill.c: a column of a grid is a whole number
 clang-tidy bugprone-sizeof-expression common/files/formats.c: a table of pointers
 clang-tidy bugprone-sizeof-expression precision/precision.c: a table of pointers
@@ -24,6 +25,7 @@ clang-tidy clang-analyzer-core.uninitialized.Assign common/geometry/volume.c: is
 clang-tidy misc-no-recursion common/geometry/area.c: by size of sphere, as deep as sizes differ
 clang-tidy misc-no-recursion common/geometry/voxels.c: halves boxes of voxels down to one
 fanalyzer -Wanalyzer-malloc-leak common/files/bed_io.c: the texts are kept in a key of the header
+fanalyzer -Wanalyzer-malloc-leak analyze/table.c: the text is kept in a cell
 fanalyzer -Wanalyzer-null-dereference common/steppers/integrate.c: the name was checked at the entry
 fanalyzer -Wanalyzer-double-free common/geometry/parts.c: two members of a struct
 clang-tidy bugprone-not-null-terminated-result analyze/write_voxels.c: an ending with its zero comes after it

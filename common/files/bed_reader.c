@@ -108,7 +108,8 @@ static int read_line(struct bed_reader *r, size_t begin, size_t *length) {
   if (line[n - 1] != '\n') {
     if (!r->options.allow_partial)
       return reader_fail(r, "the last line has no end: the file is cut "
-                            "short, or lacks its last newline");
+                            "short, or lacks its last newline, which "
+                            "'echo >> FILE' adds");
     reader_note(r, "the last line has no end and is left out");
     r->cut = true;
     return GSL_EOF;
@@ -124,9 +125,12 @@ static int read_line(struct bed_reader *r, size_t begin, size_t *length) {
   return GSL_SUCCESS;
 }
 
-bool line_is_comment(const char *line) {
-  line += strspn(line, " \t");
-  return *line == '#' || *line == '%';
+size_t comment_sign(const char *line) {
+  const size_t blanks = strspn(line, " \t");
+  const char *at = line + blanks;
+  return *at == '#' || *at == '%'       ? blanks + 1
+         : at[0] == '/' && at[1] == '/' ? blanks + 2
+                                        : 0;
 }
 
 /* Behind the quote that ends this one, which is not doubled; NULL: none. */
@@ -139,7 +143,7 @@ static const char *behind_quote(const char *open) {
 
 /* Does a field begin with a quote that does not end in this line? */
 static bool quote_is_open(const char *line) {
-  if (!strchr(line, '"') || line_is_comment(line))
+  if (!strchr(line, '"') || comment_sign(line))
     return false;
   for (const char *at = line; at; at = strpbrk(at, ",;\t")) {
     at += strspn(at, ",; \t");

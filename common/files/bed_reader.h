@@ -81,7 +81,8 @@ int reader_line(struct bed_reader *r);
 int reader_keep(struct bed_reader *r);
 void reader_rewind(struct bed_reader *r);
 bool line_is_blank(const char *line);
-bool line_is_comment(const char *line); /* # or % */
+/* Behind the #, % or // of a comment; 0: it is none. */
+size_t comment_sign(const char *line);
 
 /* The next field from *at on, which moves on and is NULL behind the last. NULL
    if there is none. Quotes around it are left out. */

@@ -318,8 +318,8 @@ static enum column component_of(const struct words *words,
 /* What a column is called */
 
 struct meaning {
-  enum column column;
   double unit;
+  enum column column;
   bool step; /* a time only where there is no better one */
 };
 

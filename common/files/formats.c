@@ -93,7 +93,7 @@ static int find_format(struct bed_reader *r) {
         reader_rewind(r);
         return take_format(r, formats[k]);
       }
-    first &= line_is_comment(r->line);
+    first = first && comment_sign(r->line);
   }
   return none_begins(r);
 }

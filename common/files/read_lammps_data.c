@@ -227,7 +227,7 @@ static int compare_places(const void *a, const void *b) {
 static int read_velocity(struct bed_reader *r, const struct place *places) {
   struct text fields[MOST_FIELDS + 1];
   const size_t count = reader_fields(r, r->line, fields);
-  struct place key;
+  struct place key = {0};
   double value[6] = {0};
   bool good =
       (count == 4 || count == 7) && reader_number(r, fields[0], &key.id);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tables: a line of names, then a row for each sphere, as spreadsheets and
    programs of all kinds write them. Before the names there may be a title,
-   behind them a line of units; lines that begin with # or % are comments, which
-   mean nothing here. Without names three columns are x y z, and what more
+   behind them a line of units; lines that begin with #, % or // are comments,
+   which mean nothing here. Without names three columns are x y z, and what more
    columns are --columns has to say. A blank line, other names or another time
    begin the next frame. */
 #include "files/readers.h"
@@ -23,11 +23,6 @@ struct table_state {
 static const char separators[] = {'\t', ';', ',', BLANKS};
 enum { SEPARATORS = sizeof separators };
 
-static const char *behind_sign(const char *line) {
-  line += strspn(line, " \t");
-  return *line == '#' || *line == '%' ? line + 1 : line;
-}
-
 /* The names of a line by the separator that gives x, y and z; their number, 0
    if none does. */
 static size_t find_names(const struct bed_reader *r, const char *line,
@@ -36,7 +31,7 @@ static size_t find_names(const struct bed_reader *r, const char *line,
   as.quotes = true;
   for (int k = 0; k < SEPARATORS; k++) {
     as.separator = *separator = separators[k];
-    size_t count = reader_fields(&as, behind_sign(line), names);
+    size_t count = reader_fields(&as, line + comment_sign(line), names);
     if (count > 1 && !names[count - 1].length)
       count--; /* a separator at the end of the line */
     if (count && count <= MOST_FIELDS && columns_named_place(count, names))
@@ -85,7 +80,7 @@ static bool begins_table(const struct bed_reader *r, const char *line,
   char separator;
   if (!r->options.columns && has_names(r, line))
     return true;
-  return (first || r->options.columns) && !line_is_comment(line) &&
+  return (first || r->options.columns) && !comment_sign(line) &&
          find_row(r, line, &separator);
 }
 
@@ -144,7 +139,7 @@ static bool names_others(const struct bed_reader *r) {
   struct bed_reader as = *r;
   for (int k = 0; k < SEPARATORS; k++) {
     as.separator = separators[k];
-    if (reader_fields(&as, behind_sign(r->line), names) == 3 &&
+    if (reader_fields(&as, r->line + comment_sign(r->line), names) == 3 &&
         columns_named_any(3, names))
       return true;
   }
@@ -158,8 +153,8 @@ static int read_start(struct bed_reader *r) {
   char separator;
   if (!r->options.columns && has_names(r, r->line))
     return read_names(r);
-  if (line_is_comment(r->line)) {
-    const char *key = behind_sign(r->line);
+  if (comment_sign(r->line)) {
+    const char *key = r->line + comment_sign(r->line);
     s->keyed |= !strncmp(key + strspn(key, " \t"), "radius=", 7);
     if (names_others(r))
       s->unfit = r->line_number;
@@ -247,7 +242,7 @@ static int next_table(struct bed_reader *r, struct bed *b) {
         return finish_frame(r, b);
     } else if (!s->named) {
       status = read_start(r);
-    } else if (line_is_comment(r->line)) {
+    } else if (comment_sign(r->line)) {
       continue;
     } else if (!before && !r->options.columns && has_names(r, r->line)) {
       if (s->bare || (s->fresh && r->frames))

@@ -24,15 +24,20 @@ enum { PACKINGS = sizeof packings / sizeof *packings };
 
 /* Does the stream go on with these bytes? They stay in it. */
 static bool goes_on(FILE *in, const char *bytes) {
-  int c = getc(in);
-  if (c == EOF)
-    return false;
-  const bool same = c == (unsigned char)*bytes;
-  const bool all = same && (!bytes[1] || goes_on(in, bytes + 1));
-  /* a byte that was just read goes back into the buffer that it came from */
-  if (ungetc(c, in) == EOF)
-    die(EXIT_IO, "internal error: ungetc");
-  return all;
+  int read[8];
+  size_t count = 0;
+  bool same = true;
+  while (same && bytes[count]) {
+    const int c = getc(in);
+    same = c == (unsigned char)bytes[count];
+    if (c != EOF)
+      read[count++] = c;
+  }
+  /* bytes that were just read go back into the buffer that they came from */
+  while (count-- > 0)
+    if (ungetc(read[count], in) == EOF)
+      die(EXIT_IO, "internal error: ungetc");
+  return same;
 }
 
 static int move(int from, int to) {
@@ -71,7 +76,7 @@ static _Noreturn void feed(FILE *in, int out) {
         _exit(1);
       done += (size_t)written;
     }
-  _exit(ferror(in) != 0);
+  _exit(ferror(in) ? 1 : 0);
 }
 
 /* The unpacking process; what keeps it from running goes to failed. */
