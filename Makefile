@@ -15,7 +15,7 @@ ifeq ($(origin CC),default)
 CC := $(if $(shell command -v gcc),gcc,cc)
 endif
 CFLAGS ?= -O3 -g
-WARNINGS := -Wall -Wextra
+WARNINGS := -Wall -Wextra -Wpedantic -Wconversion
 INCLUDES := -Icommon
 B := build
 O := $(B)/obj

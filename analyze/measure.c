@@ -187,7 +187,7 @@ void frame_check(const struct frames *f, const struct bed *b, int status) {
 }
 
 void frame_box(const struct bed *b, double margin, double box[6]) {
-  for (int k = 0; k < 3; k++) {
+  for (size_t k = 0; k < 3; k++) {
     double low = GSL_POSINF, high = GSL_NEGINF;
     for (size_t i = 0; i < b->n; i++) {
       low = GSL_MIN(low, b->x[3 * i + k]);

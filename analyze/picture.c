@@ -144,7 +144,7 @@ void picture_measure(struct picture *p, const struct bed *b,
   double *value = colour_values(p, b);
   for (size_t i = 0; i < b->n; i++, p->measured++) {
     const bool first = !p->measured;
-    for (int a = 0; a < 3; a++)
+    for (size_t a = 0; a < 3; a++)
       widen(p->fixed[2 * a] ? NULL : &p->box[2 * a],
             p->fixed[2 * a + 1] ? NULL : &p->box[2 * a + 1],
             b->x[3 * i + a] - b->r[i], b->x[3 * i + a] + b->r[i], first);
@@ -179,7 +179,7 @@ static bool *find_seen(const struct picture *p, const struct bed *b) {
     die(EXIT_IO, "out of memory");
   view_axes(p, axes);
   for (size_t i = 0; i < b->n; i++)
-    for (int k = 0; k < 3; k++) {
+    for (size_t k = 0; k < 3; k++) {
       const double *x = b->x + 3 * i, *a = axes[k];
       const double at = a[0] * x[0] + a[1] * x[1] + a[2] * x[2];
       place[3 * i + k] = at;

@@ -16,7 +16,7 @@
    centre is not beyond them. */
 static void lattice(const struct bed_header *header, const struct bed *b,
                     double box[6]) {
-  for (int k = 0; k < 3; k++) {
+  for (size_t k = 0; k < 3; k++) {
     box[2 * k] = b->n ? GSL_POSINF : 0;
     box[2 * k + 1] = b->n ? GSL_NEGINF : 1;
     for (size_t i = 0; i < b->n; i++) {
@@ -27,7 +27,7 @@ static void lattice(const struct bed_header *header, const struct bed *b,
   bool walled[6];
   header_walls(header, box, walled);
   /* programs refuse a box without volume and lose atoms that are outside */
-  for (int k = 0; k < 3; k++) {
+  for (size_t k = 0; k < 3; k++) {
     for (size_t i = 0; i < b->n; i++) {
       box[2 * k] = fmin(box[2 * k], b->x[3 * i + k]);
       box[2 * k + 1] = fmax(box[2 * k + 1], b->x[3 * i + k]);

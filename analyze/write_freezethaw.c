@@ -95,7 +95,7 @@ static void write_numbers(FILE *out, const struct shape *s,
                           const struct domain *d) {
   const struct bed *b = s->source;
   for (size_t i = 0; i < b->n; i++)
-    for (int k = 0; k < 3; k++) {
+    for (size_t k = 0; k < 3; k++) {
       char text[NUMBER_SIZE];
       number_format((b->x[3 * i + k] - s->source_box[2 * k]) / d->base, text);
       fprintf(out, k < 2 ? "%s\t" : "%s\n", text);

@@ -292,7 +292,7 @@ static void write_bodies(FILE *out, const struct shape *s,
     for (size_t q = 0; q < count; q++) {
       double corner[9], normal[3];
       normal_of(facet[q], normal);
-      for (int k = 0; k < 9; k++)
+      for (size_t k = 0; k < 9; k++)
         corner[k] = b->x[3 * i + k % 3] + scale * b->r[i] * facet[q][k];
       put_facet(out, normal, corner);
     }

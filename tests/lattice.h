@@ -47,7 +47,7 @@ static inline int lattice_bed(const struct lattice *l, size_t cells,
     for (size_t a = 0; a < l->atoms; a++, n++) {
       const size_t at[3] = {c / cells / cells, c / cells % cells, c % cells};
       double d2 = 0;
-      for (int k = 0; k < 3; k++) {
+      for (size_t k = 0; k < 3; k++) {
         const double middle = 0.5 * (double)(cells - 1);
         double *x = &b->x[3 * n + k];
         *x = l->edge[k] * ((double)at[k] + l->atom[a][k] - middle);

@@ -49,7 +49,7 @@ static inline double oracle_phi(const struct scene *s) {
 }
 
 static inline double oracle_spin(const struct scene *s, const struct bed *b,
-                                 size_t i, int c) {
+                                 size_t i, size_t c) {
   return s->model == SCENE_ROTATION ? b->w[3 * i + c] : 0;
 }
 
@@ -79,7 +79,7 @@ static inline struct oracle_contact
 oracle_pair(const struct scene *s, const struct bed *b, size_t i, size_t j) {
   struct oracle_contact c;
   double x[3], v[3], rw[3], rwxx[3], xxf[3];
-  for (int k = 0; k < 3; k++) {
+  for (size_t k = 0; k < 3; k++) {
     x[k] = b->x[3 * i + k] - b->x[3 * j + k];
     v[k] = b->v[3 * i + k] - b->v[3 * j + k];
     rw[k] =
@@ -108,7 +108,7 @@ oracle_wall(const struct scene *s, const struct bed *b, size_t i, size_t wall) {
   struct oracle_contact c;
   const double *n = s->walls[wall].normal, *v = b->v + 3 * i;
   double w[3], wxn[3], nxf[3], d = 0;
-  for (int k = 0; k < 3; k++) {
+  for (size_t k = 0; k < 3; k++) {
     w[k] = oracle_spin(s, b, i, k);
     d += (s->walls[wall].point[k] - b->x[3 * i + k]) * n[k];
   }
@@ -144,12 +144,12 @@ static inline void oracle_rates(const struct scene *s, const struct bed *b,
       if (c.gap > s->law.lmax)
         continue;
       load[i] += c.repulsion;
-      for (int k = 0; k < 3; k++) {
+      for (size_t k = 0; k < 3; k++) {
         force[k] += c.rep[k] + c.fr[k];
         torque[k] += c.torque[k];
       }
     }
-    for (int k = 0; k < 3; k++) {
+    for (size_t k = 0; k < 3; k++) {
       a[3 * i + k] = force[k] / b->m[i] + s->gravity[k];
       alpha[3 * i + k] = s->model == SCENE_ROTATION
                              ? torque[k] / (0.4 * b->m[i] * b->r[i] * b->r[i])
@@ -164,7 +164,7 @@ static inline double oracle_potential(const struct scene *s,
                                       const struct bed *b) {
   double sum = 0;
   for (size_t i = 0; i < b->n; i++) {
-    for (int k = 0; k < 3; k++)
+    for (size_t k = 0; k < 3; k++)
       sum -= b->m[i] * s->gravity[k] * b->x[3 * i + k];
     for (size_t j = 0; j < i; j++)
       sum += oracle_pair(s, b, i, j).repulsion / s->law.kappa;

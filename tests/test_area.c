@@ -563,7 +563,8 @@ static void sampled_shell(size_t n, const double *x, const double *r,
 }
 
 static double quarters(gsl_rng *rng, int from, int to) {
-  return 0.25 * (from + (int)gsl_rng_uniform_int(rng, to - from + 1));
+  return 0.25 *
+         (from + (int)gsl_rng_uniform_int(rng, (unsigned long)(to - from + 1)));
 }
 
 static void test_shell_degenerate(void) {

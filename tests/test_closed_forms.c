@@ -418,7 +418,7 @@ static void toda(unsigned long seed, const char *method) {
   double at = 0;
   for (size_t i = 0; i < CHAIN; i++) {
     const double v = 4 * gsl_rng_uniform(rng) - 2;
-    for (int k = 0; k < 3; k++) {
+    for (size_t k = 0; k < 3; k++) {
       w.bed.x[3 * i + k] = at * line[k];
       w.bed.v[3 * i + k] = v * line[k];
     }

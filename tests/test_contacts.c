@@ -29,7 +29,7 @@ static struct bed tangle(size_t n, unsigned long seed) {
   gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
   gsl_rng_set(rng, seed);
   for (size_t i = 0; i < n; i++) {
-    for (int k = 0; k < 3; k++) {
+    for (size_t k = 0; k < 3; k++) {
       b.x[3 * i + k] = 0.05 + 0.9 * gsl_rng_uniform(rng);
       b.v[3 * i + k] = 0.05 * (gsl_rng_uniform(rng) - 0.5);
       b.w[3 * i + k] = gsl_rng_uniform(rng) - 0.5;
@@ -75,7 +75,7 @@ static void test_against_dynamics(enum scene_model model) {
   dynamics_pack(d, &b, y);
   CHECK(dynamics_rhs(0, y, dydt, d) == GSL_SUCCESS);
   for (size_t i = 0; i < b.n; i++)
-    for (int k = 0; k < 3; k++) {
+    for (size_t k = 0; k < 3; k++) {
       const double tol =
           eps * (20 + 4 * s.law.kappa) * (scale[i] + b.m[i] * 9.81);
       CHECK_CLOSE(force[3 * i + k], b.m[i] * dydt[i * stride + 3 + k], tol);
@@ -236,7 +236,7 @@ static void test_lattice(const char *name, size_t want) {
   double near[6], fabric[6];
   for (size_t i = 0; i < b.n; i++) {
     bool inside = true;
-    for (int k = 0; k < 3; k++)
+    for (size_t k = 0; k < 3; k++)
       inside = inside && fabs(b.x[3 * i + k]) < 1.5;
     if (inside) {
       least = GSL_MIN(least, degree[i]);
@@ -246,7 +246,7 @@ static void test_lattice(const char *name, size_t want) {
   }
   CHECK(least == want && most == want);
   /* all contacts of the sphere in the middle and no others */
-  for (int k = 0; k < 6; k++)
+  for (size_t k = 0; k < 6; k++)
     near[k] = b.x[3 * centre + k / 2] + (k % 2 ? 0.51 : -0.51);
   CHECK(network_fabric(&w, &b, near, fabric) == want);
   for (int k = 0; k < 6; k++)
@@ -364,7 +364,7 @@ static void test_settled(void) {
   const size_t stride = dynamics_stride(d);
   double up = 0, inertia = 0;
   for (size_t i = 0; i < b.n; i++) {
-    for (int k = 0; k < 3; k++) /* forces of some n weights, 4 ulp each */
+    for (size_t k = 0; k < 3; k++) /* forces of some n weights, 4 ulp each */
       CHECK_CLOSE(force[3 * i + k], dydt[i * stride + 3 + k],
                   eps * 4 * s.law.kappa * 9.81 * (double)b.n);
     inertia += dydt[i * stride + 5];

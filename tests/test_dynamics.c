@@ -90,7 +90,7 @@ static struct sample random_sample(gsl_rng *rng, const struct recipe *p) {
   for (size_t i = 0; i < p->n; i++) {
     s.bed.r[i] = p->radii ? uniform(rng, 0.05, 0.15) : 0.1;
     s.bed.m[i] = p->masses ? uniform(rng, 0.2, 5) : 1;
-    for (int k = 0; k < 3; k++)
+    for (size_t k = 0; k < 3; k++)
       s.bed.x[3 * i + k] = uniform(rng, -side / 2, side / 2);
     random_velocity(rng, speed, s.bed.v + 3 * i);
     random_velocity(rng, speed / s.bed.r[i], s.bed.w + 3 * i);
@@ -275,7 +275,7 @@ static void test_cell_borders(gsl_rng *rng) {
         factors[c / 3] * (2 * 0.1 + s.scene.law.lmax + 0.2 * 0.1);
     for (size_t i = 0; i < 216; i++) {
       const size_t at[3] = {i % 6, i / 6 % 6, i / 36};
-      for (int k = 0; k < 3; k++)
+      for (size_t k = 0; k < 3; k++)
         s.bed.x[3 * i + k] = -0.7 + spacing * (double)at[k];
     }
     against_oracle(&s, "cell borders", c);
@@ -572,7 +572,7 @@ static void test_momentum(gsl_rng *rng) {
         direction(rng, u);
         u[2] = fabs(u[2]) + 2;
         const double d = (s.bed.r[i] + s.bed.r[i - 1]) / vec3_norm(u);
-        for (int k = 0; k < 3; k++)
+        for (size_t k = 0; k < 3; k++)
           s.bed.x[3 * i + k] = s.bed.x[3 * (i - 1) + k] + d * u[k];
       }
     if (touching)
@@ -584,7 +584,7 @@ static void test_momentum(gsl_rng *rng) {
     for (size_t i = 0; i < n; i++) {
       const double *x = s.bed.x + 3 * i, m = s.bed.m[i], r = s.bed.r[i];
       double force[3], xxf[3];
-      for (int k = 0; k < 3; k++)
+      for (size_t k = 0; k < 3; k++)
         force[k] = m * (a[3 * i + k] - s.scene.gravity[k]);
       vec3_axpy(1, force, momentum);
       vec3_cross(x, force, xxf);

@@ -291,7 +291,7 @@ static void test_flung_cost(gsl_rng *rng) {
   const double side = 0.2 * cbrt(N);
   for (size_t i = 0; i < N; i++) {
     c.r[i] = 0.1;
-    for (int k = 0; k < 3; k++)
+    for (size_t k = 0; k < 3; k++)
       c.x[3 * i + k] = uniform(rng, 0, side);
   }
   struct neighbors nb = {0};
@@ -329,7 +329,7 @@ static void test_mixed_cost(gsl_rng *rng) {
   struct neighbors nb = {0};
   for (unsigned long m = 0; m < MIXTURES; m++) {
     gsl_rng_set(rng, m);
-    struct cloud c = mixed_cloud(rng, m, N);
+    struct cloud c = mixed_cloud(rng, (enum mixture)m, N);
     const double time = seconds(&c, &nb, 0);
     printf("%d spheres, %s: %zu pairs of %zu looked at, %.4f s\n", N,
            mixture_names[m], nb.count, nb.tested, time);

@@ -563,7 +563,7 @@ static void pressed_bed(struct bed *b, size_t n, double spacing, double speed,
   const double r = 0.1;
   for (size_t i = 0; i < n; i++) {
     const size_t at[3] = {i % 2, i / 2 % 2, i / 4};
-    for (int k = 0; k < 3; k++) {
+    for (size_t k = 0; k < 3; k++) {
       b->x[3 * i + k] =
           r + spacing * (double)at[k] + 0.1 * r * (gsl_rng_uniform(rng) - 0.5);
       b->v[3 * i + k] = speed * (2 * gsl_rng_uniform(rng) - 1);
@@ -699,7 +699,7 @@ static void test_radius(void) {
              names[full], i ? "a step before" : "this step", range[i].least,
              range[i].most, range[i].within, range[i].all);
       CHECK(range[i].all > 20);
-      CHECK(range[i].within >= 0.6 * (double)range[i].all);
+      CHECK((double)range[i].within >= 0.6 * (double)range[i].all);
       CHECK(range[i].least >= 0.1);
       CHECK(range[i].most <= (i ? 2 : 1.3));
     }

@@ -165,9 +165,10 @@ static double oracle_q(const struct bed *b, size_t i, double cutoff, int l) {
 /* Turned to no particular direction: invariants stay. */
 static void turn(struct bed *b) {
   for (size_t i = 0; i < b->n; i++)
-    for (int k = 0; k < 3; k++) {
+    for (size_t k = 0; k < 3; k++) {
       double *p = &b->x[3 * i + k], *q = &b->x[3 * i + (k + 1) % 3];
-      const double c = cos(0.3 + k), s = sin(0.3 + k), x = *p, y = *q;
+      const double c = cos(0.3 + (double)k), s = sin(0.3 + (double)k), x = *p,
+                   y = *q;
       *p = c * x - s * y;
       *q = s * x + c * y;
     }

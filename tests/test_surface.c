@@ -138,7 +138,7 @@ static void test_ball(void) {
     const double missing = 1 - surface_case(&s, NULL, cells, &ball) / volume;
     const double step = 2. / (double)cells;
     CHECK(missing > 0 && missing < step * step / 3);
-    CHECK(!before || (before / missing > 3.4 && before / missing < 4.6));
+    CHECK(before == 0 || (before / missing > 3.4 && before / missing < 4.6));
     before = missing;
   }
 }

@@ -21,7 +21,7 @@
 #include "geometry/volume.h"
 
 #define BALL (4 * M_PI / 3) /* the unit ball */
-#define ULPS(n) ((n)*DBL_EPSILON)
+#define ULPS(n) ((double)(n)*DBL_EPSILON)
 
 static const double everywhere[6] = {-1e3, 1e3, -1e3, 1e3, -1e3, 1e3};
 
@@ -47,7 +47,7 @@ static double uniform(gsl_rng *rng, double a, double b) {
 static void random_spheres(gsl_rng *rng, size_t n, double rmin, double rmax,
                            double *x, double *r) {
   for (size_t i = 0; i < n; i++) {
-    for (int k = 0; k < 3; k++)
+    for (size_t k = 0; k < 3; k++)
       x[3 * i + k] = gsl_rng_uniform(rng);
     r[i] = uniform(rng, rmin, rmax);
   }
@@ -920,11 +920,11 @@ static bool check_identities(gsl_rng *rng, size_t n, double *x, double *r,
 
   double *y = malloc(4 * n * sizeof *y), *s = y + 3 * n, moved[6];
   double shift[3];
-  for (int k = 0; k < 3; k++)
+  for (size_t k = 0; k < 3; k++)
     shift[k] = ldexp((double)gsl_rng_uniform_int(rng, 9) - 4, -2);
   for (size_t i = 0; i < n; i++) { /* backwards, mirrored, axes turned, moved */
     s[i] = r[n - 1 - i];
-    for (int k = 0; k < 3; k++)
+    for (size_t k = 0; k < 3; k++)
       y[3 * i + k] = shift[k] - x[3 * (n - 1 - i) + (k + 1) % 3];
   }
   for (int k = 0; k < 3; k++) {
@@ -952,7 +952,7 @@ static void test_identities(void) {
     random_spheres(rng, n, 0.01, 0.4, x, r);
     if (seed % 4 == 0) /* many coincidences: a coarse grid of values */
       for (size_t i = 0; i < n; i++) {
-        for (int k = 0; k < 3; k++)
+        for (size_t k = 0; k < 3; k++)
           x[3 * i + k] = floor(4 * x[3 * i + k]) / 4;
         r[i] = ceil(10 * r[i]) / 8;
       }

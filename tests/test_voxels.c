@@ -179,7 +179,7 @@ static struct spheres random_spheres(gsl_rng *rng, size_t n, double low,
                                      double high) {
   struct spheres s = {.n = n};
   for (size_t i = 0; i < n; i++) {
-    for (int k = 0; k < 3; k++)
+    for (size_t k = 0; k < 3; k++)
       s.x[3 * i + k] = 1.4 * gsl_rng_uniform(rng) - 0.2;
     s.r[i] = low + (high - low) * gsl_rng_uniform(rng);
   }
@@ -322,7 +322,7 @@ static void test_distance(gsl_rng *rng) {
       double least = HUGE_VAL;
       for (size_t i = 0; i < n; i++) {
         double d2 = 0;
-        for (int k = 0; k < 3; k++) {
+        for (size_t k = 0; k < 3; k++) {
           const double h = (box[2 * k + 1] - box[2 * k]) / (double)cells[k];
           d2 += pow(box[2 * k] + h * ((double)at[k] + 0.5) - s.x[3 * i + k], 2);
         }
@@ -341,7 +341,8 @@ static void test_same_bits(gsl_rng *rng) {
   static const double box[6] = {0, 1, 0, 1, 0, 1};
   static const size_t cells[3] = {33, 29, 7};
   const struct spheres s = random_spheres(rng, 40, 0.05, 0.2);
-  for (int what = VOXELS_FRACTION; what <= VOXELS_DISTANCE; what++) {
+  for (int k = VOXELS_FRACTION; k <= VOXELS_DISTANCE; k++) {
+    const enum voxels_value what = (enum voxels_value)k;
     double *one = grid(&s, box, cells, what, 1, 29);
     double *three = grid(&s, box, cells, what, 3, 10);
     CHECK(!memcmp(one, three, 33 * 29 * 7 * sizeof *one));

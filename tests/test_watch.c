@@ -308,7 +308,7 @@ static void test_survey(gsl_rng *rng) {
     for (size_t i = 0; i < n; i++) {
       b.r[i] = 0.05 + 0.1 * gsl_rng_uniform(rng);
       b.m[i] = 0.5 + gsl_rng_uniform(rng);
-      for (int k = 0; k < 3; k++)
+      for (size_t k = 0; k < 3; k++)
         b.x[3 * i + k] = 1.2 * gsl_rng_uniform(rng) - 0.1;
     }
     double overlap = 0, inside = GSL_POSINF, gravity = 0, stored = 0;

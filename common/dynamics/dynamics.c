@@ -59,7 +59,7 @@ const char *dynamics_kernel(const struct dynamics *d) {
 void dynamics_pack(const struct dynamics *d, const struct bed *b, double y[]) {
   const struct contact_list *l = d->list;
   for (size_t i = 0; i < l->rows; i++)
-    for (int c = 0; c < 3; c++) {
+    for (size_t c = 0; c < 3; c++) {
       double *row = y + i * l->stride;
       const size_t at = 3 * l->order[i] + c;
       row[ROW_X + c] = b->x[at];
@@ -73,7 +73,7 @@ void dynamics_unpack(const struct dynamics *d, const double y[],
                      struct bed *b) {
   const struct contact_list *l = d->list;
   for (size_t i = 0; i < l->rows; i++)
-    for (int c = 0; c < 3; c++) {
+    for (size_t c = 0; c < 3; c++) {
       const double *row = y + i * l->stride;
       const size_t at = 3 * l->order[i] + c;
       b->x[at] = row[ROW_X + c];

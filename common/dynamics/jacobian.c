@@ -7,6 +7,8 @@
 
 #include <string.h>
 
+/* Not const where it is read alone: C11 turns none of these into one of const.
+ */
 typedef double matrix[3][3];
 
 struct derivatives {
@@ -32,14 +34,14 @@ static void add_cross(matrix m, double a, const double x[3]) {
   m[2][1] += a * x[0];
 }
 
-static void add_product(const matrix a, const matrix b, matrix c) {
+static void add_product(matrix a, matrix b, matrix c) {
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)
       for (int k = 0; k < 3; k++)
         c[i][j] += a[i][k] * b[k][j];
 }
 
-static void add_matrix(double a, const matrix x, matrix y) {
+static void add_matrix(double a, matrix x, matrix y) {
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)
       y[i][j] += a * x[i][j];
@@ -122,7 +124,7 @@ struct dense {
 
 /* at rows (i, a..a+2) and columns (j, b..b+2) */
 static void add_block(const struct dense *m, size_t i, size_t a, size_t j,
-                      size_t b, double scale, const matrix x) {
+                      size_t b, double scale, matrix x) {
   for (size_t r = 0; r < 3; r++)
     for (size_t c = 0; c < 3; c++)
       m->at[(i * m->stride + a + r) * m->dimension + j * m->stride + b + c] +=
@@ -134,7 +136,7 @@ static void add_block(const struct dense *m, size_t i, size_t a, size_t j,
    already, since it is the same for both. */
 static void add_body(const struct contact_list *list, const struct dense *m,
                      size_t i, size_t j, double force_sign, double sign,
-                     const struct derivatives *d) {
+                     struct derivatives *d) {
   const double a = force_sign / list->mass[i];
   add_block(m, i, ROW_V, j, ROW_X, a * sign, d->force_u);
   add_block(m, i, ROW_V, j, ROW_V, a * sign, d->force_w);

@@ -92,7 +92,7 @@ INLINE void load_four(const double *y, const uint32_t *i, const uint32_t *j,
   const size_t stride = has.rotation ? ROW_SPIN : ROW_PLAIN;
   const vec4 plus = {-1, -1, 1, 1}; /* velocities less, spins and */
   vec4 u[4], w[4];
-  for (int l = 0; l < 4; l++) {
+  for (size_t l = 0; l < 4; l++) {
     const double *p = y + i[l] * stride;
     const double *q = y + j[l] * stride;
     u[l] = vec4_load(p) - vec4_load(q);

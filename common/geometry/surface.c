@@ -343,14 +343,14 @@ int surface_walk(struct surface *f, surface_triangle *each, void *context,
       const size_t row = j * nx;
       for (size_t i = 0; i + 1 < nx; i++) {
         const size_t q = row + i;
-        const unsigned inside = low[q] | low[q + 1] << 1 | low[q + nx] << 2 |
-                                low[q + nx + 1] << 3 | high[q] << 4 |
-                                high[q + 1] << 5 | high[q + nx] << 6 |
-                                (unsigned)high[q + nx + 1] << 7;
+        const int inside = low[q] | low[q + 1] << 1 | low[q + nx] << 2 |
+                           low[q + nx + 1] << 3 | high[q] << 4 |
+                           high[q + 1] << 5 | high[q + nx] << 6 |
+                           high[q + nx + 1] << 7;
         if (inside == 0 || inside == 255)
           continue;
         w.at[0] = i;
-        cut_cube(&w, inside);
+        cut_cube(&w, (unsigned)inside);
       }
     }
   }

@@ -286,7 +286,7 @@ static size_t gather(struct row *w, const double cell[6]) {
   for (size_t m = 0; m < w->count; m++) {
     const size_t i = w->member[m];
     double d2 = 0;
-    for (int k = 0; k < 3; k++)
+    for (size_t k = 0; k < 3; k++)
       d2 += nearest2(w->v->x[3 * i + k], cell[2 * k], cell[2 * k + 1]);
     if (d2 >= w->v->r[i] * w->v->r[i])
       continue;
@@ -380,7 +380,7 @@ static void mark(struct row *w) {
       if (q >= solid && q < solid_end)
         w->holds[q] = SOLID;
       else if (w->holds[q] == NOTHING)
-        w->holds[q] = i;
+        w->holds[q] = w->member[m];
       else if (w->holds[q] != SOLID)
         w->holds[q] = SEVERAL;
   }
@@ -581,7 +581,7 @@ static size_t sift(const struct block *b, uint32_t *candidate, size_t count) {
     if (surface_distance(v, i, p) > most)
       continue;
     candidate[m] = candidate[kept];
-    candidate[kept++] = i;
+    candidate[kept++] = (uint32_t)i;
   }
   return kept;
 }

@@ -158,7 +158,7 @@ size_t network_rattlers(const struct network *w, size_t least, bool *rattler) {
 void network_net_force(const struct network *w, const struct scene *s,
                        const struct bed *b, double *force) {
   for (size_t i = 0; i < b->n; i++)
-    for (int k = 0; k < 3; k++)
+    for (size_t k = 0; k < 3; k++)
       force[3 * i + k] = b->m[i] * s->gravity[k];
   for (size_t p = 0; p < w->count; p++) {
     const struct network_contact *c = &w->at[p];

@@ -2,16 +2,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # What the compiler, its target and the libraries offer, as variables of make:
 #   CC=gcc CFLAGS=... common/platform/probe.sh FILE
-# writes FILE anew if the compiler or its flags have changed since. Everything
-# is asked of the compiler, nothing of the machine that this runs on, so that a
-# cross compiler gets what fits its target. A thing that is not there is left
+# writes FILE anew if the compiler, its flags or this script have changed since.
+# Everything is asked of the compiler, nothing of the machine that this runs on,
+# so that a cross compiler gets what fits its target. What is not there is left
 # out and the build goes on without it.
 set -u
 file=$1
 CC=${CC:-cc} CPPFLAGS=${CPPFLAGS:-} CFLAGS=${CFLAGS:-} LDFLAGS=${LDFLAGS:-}
 version=$($CC --version 2>/dev/null | head -n 1)
 key="# $CC ($version) $CPPFLAGS $CFLAGS $LDFLAGS"
-[ "$(head -n 1 "$file" 2>/dev/null)" = "$key" ] && exit
+# shellcheck disable=SC3013 # what every sh has
+[ "$file" -nt "$0" ] && [ "$(head -n 1 "$file")" = "$key" ] && exit
 if [ -z "$version" ]; then
   echo "$CC: no compiler by this name, expected one in CC" >&2
 fi
@@ -70,7 +71,7 @@ if links -lmvec; then
   [ "$kernels" = native ] || veclib=$(first -fveclib=libmvec)
 fi
 source=$nothing quiet=
-for flag in -Wno-psabi -Wno-pass-failed; do
+for flag in -Wno-psabi -Wno-pass-failed -Wno-string-conversion; do
   [ "$kernels" = native ] && [ $flag = -Wno-psabi ] && continue
   # gcc takes any -Wno-; -W tells
   links "-W${flag#-Wno-}" && quiet="$quiet $flag"
