@@ -15,14 +15,11 @@ VERLET_STEPS := $(if $(QUICK),1e-3 2.5e-5,1e-3 4e-4 2e-4 1e-4 5e-5 2.5e-5)
 
 SETTLING_FULL := \
   $(call bed_runs,$(FULL)/method-merson/tol-0.01,1,$(BED_MERSON)) \
-  $(call bed_runs,$(FULL)/method-merson/tol-0.1,1,$(BED_MERSON)) \
   $(foreach t,$(RKC_TOLERANCES),\
     $(call bed_runs,$(FULL)/method-rkc/tol-$(t),3,$(BED_RKC))) \
   $(foreach h,$(VERLET_STEPS),\
     $(call bed_runs,$(FULL)/method-verlet/step-$(h),3,$(BED_VERLET))) \
-  $(foreach t,$(filter-out 0.1,$(EMBEDDED_TOLERANCES)),\
-    $(call bed_runs,$(FULL)/method-merson/tol-$(t),1,$(BED_EMBEDDED))) \
-  $(foreach m,dopri5 rkf45,$(foreach t,$(EMBEDDED_TOLERANCES),\
+  $(foreach m,merson dopri5 rkf45,$(foreach t,$(EMBEDDED_TOLERANCES),\
     $(call bed_runs,$(FULL)/method-$(m)/tol-$(t),1,$(BED_EMBEDDED))))
 SETTLING_PLAIN := \
   $(foreach m,merson dopri5 rkf45,$(foreach t,$(EMBEDDED_TOLERANCES),\

@@ -47,7 +47,7 @@ do for [t=1:2] {
     set rmargin at screen x + cell_width
     set tmargin at screen y
     set bmargin at screen y - cell_height
-    set title method_title(m) offset 0,-0.9
+    set title method_title(m).(m eq "rkc" ? ", tol. in m/s" : "") offset 0,-0.9
     unset xtics
     unset ytics
     unset xlabel
@@ -59,7 +59,7 @@ do for [t=1:2] {
       do for [k=1:words(tols)] {
         set ytics add (word(tols, k) k)
       }
-      set ylabel "tolerance (m/s)" offset 0.5,0
+      set ylabel "{/:Italic δ} (m/s^2)" offset 0.5,0
     }
     if (i > 3) {
       set xtics () offset 0,0.5
