@@ -12,7 +12,7 @@
 
 struct write_options {
   size_t cells[3]; /* voxels along x, y, z */
-  bool binary, distance, single, equal_volume, merged, quiet;
+  bool binary, distance, single, equal_volume, merged, network, quiet;
   size_t facets, threads;
 };
 

@@ -14,6 +14,7 @@
 #include "files/formats.h"
 #include "check.h"
 #include "geometry/solid.h"
+#include "measure/network.h"
 #include "geometry/volume.h"
 
 static char bed_path[] = "/tmp/test_export.XXXXXX";
@@ -60,6 +61,14 @@ static float float_at(const struct bytes *b, size_t at) {
   return x;
 }
 
+/* A floor, sides but for one, and a lid: points and normals. */
+enum { WALLS = 5 };
+static const double walls[WALLS][6] = {{0, 0, 0, 0, 0, -1},
+                                       {0, 0, 0, -1, 0, 0},
+                                       {1, 0, 0, 1, 0, 0},
+                                       {0, 0, 0, 0, -1, 0},
+                                       {0, 0, 1, 0, 0, 1}};
+
 static struct bed make_bed(void) {
   struct bed b;
   gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
@@ -77,14 +86,14 @@ static struct bed make_bed(void) {
     }
   }
   gsl_rng_free(rng);
-  /* a floor, sides but for one, and a lid */
-  static const char *const walls[] = {"0 0 0 0 0 -1", "0 0 0 -1 0 0",
-                                      "1 0 0 1 0 0", "0 0 0 0 -1 0",
-                                      "0 0 1 0 0 1"};
   struct bed_header header = {0};
   CHECK(bed_header_add(&header, "format", "bed-1") == GSL_SUCCESS);
-  for (int k = 0; k < 5; k++)
-    CHECK(bed_header_add(&header, "wall", walls[k]) == GSL_SUCCESS);
+  for (size_t k = 0; k < WALLS; k++) {
+    char text[80];
+    snprintf(text, sizeof text, "%g %g %g %g %g %g", walls[k][0], walls[k][1],
+             walls[k][2], walls[k][3], walls[k][4], walls[k][5]);
+    CHECK(bed_header_add(&header, "wall", text) == GSL_SUCCESS);
+  }
   const int fd = mkstemp(bed_path);
   FILE *out = fd < 0 ? NULL : fdopen(fd, "w");
   if (!CHECK(out))
@@ -265,7 +274,14 @@ static void test_bodies(const struct bed *b) {
   uint32_t(*ends)[2] = NULL;
   size_t bridges = 0;
   CHECK(solid_pairs(b->n, b->x, b->r, 0.05, &ends, &bridges) == GSL_SUCCESS);
-  CHECK(bridges > 5 && count == spheres + prism * bridges + 12 * 5);
+  const struct solid solid = {.n = b->n,
+                              .x = b->x,
+                              .r = b->r,
+                              .bridges = bridges,
+                              .ends = (const uint32_t(*)[2])ends,
+                              .bridge_radius = 0.05};
+  bridges = solid_visible(&solid, ends);
+  CHECK(bridges > 2 && count == spheres + prism * bridges + 12 * 5);
   for (size_t k = 0; k < bridges; k++) {
     const double *p = b->x + 3 * ends[k][0], *q = b->x + 3 * ends[k][1];
     double middle[3], length2 = 0, least, most;
@@ -403,6 +419,59 @@ static void test_vtp(const struct bed *bed) {
   free(b.at);
 }
 
+/* Contacts as lines, in the order of the network. */
+static void test_network(const struct bed *bed) {
+  struct scene scene = scene_default();
+  for (size_t k = 0; k < WALLS; k++)
+    CHECK(scene_add_wall(&scene, walls[k], walls[k] + 3) == GSL_SUCCESS);
+  struct network w = {0};
+  CHECK(network_find(&w, &scene, bed, 0) == GSL_SUCCESS);
+  network_mark(&w, 0, 0);
+  const struct bytes b = run("--format vtp --network --scale 2");
+  size_t count = 0, feet = 0;
+  double *normal = calloc(bed->n + w.count, sizeof *normal),
+         *gap = calloc(bed->n + w.count, sizeof *gap);
+  for (size_t p = 0; p < w.count; p++)
+    if (w.at[p].counts) {
+      normal[bed->n + count] = w.at[p].normal;
+      gap[bed->n + count++] = 2 * w.at[p].gap;
+      feet += w.at[p].wall;
+    }
+  CHECK(count > 10 && feet > 3);
+  doubles_case(&b, "normal_force", bed->n + count, normal);
+  doubles_case(&b, "gap", bed->n + count, gap);
+  /* every line is as long as its bodies are apart, twice */
+  char *lines = strstr((char *)b.at, "<Lines>");
+  CHECK(lines != NULL);
+  const struct bytes rest = {b.count - (size_t)(lines - (char *)b.at),
+                             (unsigned char *)lines};
+  const size_t at = appended(&b) + 8;
+  const size_t from = at + offset_of(&rest, "connectivity");
+  const size_t points = at + offset_of(&b, "Points");
+  CHECK(whole_at(&b, from - 8, 8) == 16 * count);
+  CHECK(whole_at(&b, points - 8, 8) == 24 * (bed->n + feet));
+  for (size_t p = 0, line = 0; p < w.count; p++) {
+    const struct network_contact *c = &w.at[p];
+    if (!c->counts)
+      continue;
+    double d2 = 0;
+    const size_t i = whole_at(&b, from + 16 * line, 8);
+    const size_t j = whole_at(&b, from + 16 * line + 8, 8);
+    CHECK(i == c->i && (c->wall ? j >= bed->n : j == c->j));
+    for (size_t k = 0; k < 3; k++)
+      d2 += gsl_pow_2(double_at(&b, points + 24 * i + 8 * k) -
+                      double_at(&b, points + 24 * j + 8 * k));
+    CHECK_CLOSE(sqrt(d2),
+                2 * (c->gap + bed->r[i] + (c->wall ? 0 : bed->r[c->j])), 1e-14);
+    line++;
+  }
+  free(gap);
+  free(normal);
+  free(b.at);
+  network_free(&w);
+  scene_free(&scene);
+}
+
 /* --- voxels ----------------------------------------------------------------
  */
 
@@ -472,6 +541,7 @@ int main(void) {
   test_bodies(&b);
   test_stl_far(&b);
   test_vtp(&b);
+  test_network(&b);
   test_voxels(&b);
   unlink(bed_path);
   bed_free(&b);
