@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "run.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 #include <gsl/gsl_errno.h>
@@ -34,6 +35,7 @@ static void write_frame(struct run *r, const double *y, double t) {
   bed_write_frame(stdout, r->frames ? &none : r->header, r->bed,
                   dynamics_stride(r->motion->dynamics) == ROW_SPIN);
   r->frames++;
+  assert(r->frames <= r->set->frames);
   if (ferror(stdout))
     finish_output(); /* does not return */
 }

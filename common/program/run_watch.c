@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "program/run_watch.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -144,6 +145,7 @@ static void pace_step(struct pace *p, double h) {
 
 void run_watch_step(struct run_watch *w) {
   const struct rkc_report r = integrate_rkc_report(w->set.integrator);
+  assert(integrate_time(w->set.integrator) > w->time);
   w->steps++;
   w->time = integrate_time(w->set.integrator);
   w->stages += r.stages;

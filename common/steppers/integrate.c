@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "steppers/integrate.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -351,6 +352,7 @@ int integrate_step(struct integrator *it) {
   }
   if (status != GSL_SUCCESS)
     return status == GSL_EBADFUNC ? GSL_FAILURE : status;
+  assert(it->t > start && it->t <= it->stop);
   it->counts.accepted++;
   it->now.last_step = it->now.t - start;
   it->h = h;

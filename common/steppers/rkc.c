@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "steppers/rkc.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -197,6 +198,7 @@ static int apply(void *vstate, size_t dim, double t, double h, double y[],
       chebyshev_scheme(s->chebyshev, stages);
   if (!scheme)
     return GSL_ENOMEM;
+  assert(scheme->stages == stages && fabs(h) * s->radius <= scheme->reach);
   s->report.stages = stages;
   s->report.most_stages = GSL_MAX(s->report.most_stages, stages);
 
