@@ -24,6 +24,8 @@ struct run {
   struct rest_watch rest;
   size_t frames; /* written */
   FILE *log;
+  bool failed;
+  char mark[160]; /* of the bed, at its end */
 };
 
 static void write_frame(struct run *r, const double *y, double t) {
@@ -47,24 +49,32 @@ static double frame_time(const struct run *r, size_t k) {
   return r->start + (s->time - r->start) * (double)k / (double)(s->frames - 1);
 }
 
-/* The state at a time within the last step as a frame, looked at. */
-static int write_state(struct run *r, double t, bool last,
-                       struct watch_finding *f) {
+/* Says what was found at t and marks the bed with it. */
+static void fail(struct run *r, double t, const struct watch_finding *f) {
+  snprintf(r->mark, sizeof r->mark, "failed at t=%.6g: %s", t, f->what);
+  watch_fail(r->watch, t, f);
+  r->failed = true;
+}
+
+/* The state at a time within the last step as a frame, looked at. What is wrong
+   with one does not end the run: what comes later may be of interest. */
+static void write_state(struct run *r, double t, bool last) {
+  struct watch_finding f;
   if (integrate_at(r->motion->integrator, t, r->y) != GSL_SUCCESS)
     die(EXIT_IO, "internal error: no state at t=%g", t);
   write_frame(r, r->y, t);
-  return watch_frame(r->watch, r->bed, last, f);
+  const int status = watch_frame(r->watch, r->bed, last, &f);
+  if (status == GSL_ENOMEM)
+    die(EXIT_IO, "out of memory");
+  if (status != GSL_SUCCESS && !r->failed)
+    fail(r, t, &f);
 }
 
-/* Every frame that is due by now; what is wrong with one ends the run. */
-static int write_due_frames(struct run *r, struct watch_finding *f) {
+/* Every frame that is due by now. */
+static void write_due_frames(struct run *r) {
   const double t = integrate_time(r->motion->integrator);
-  int status = GSL_SUCCESS;
-  while (status == GSL_SUCCESS && r->frames < r->set->frames &&
-         frame_time(r, r->frames) <= t)
-    status = write_state(r, frame_time(r, r->frames),
-                         r->frames + 1 == r->set->frames, f);
-  return status;
+  while (r->frames < r->set->frames && frame_time(r, r->frames) <= t)
+    write_state(r, frame_time(r, r->frames), r->frames + 1 == r->set->frames);
 }
 
 static void write_log(struct run *r) {
@@ -91,67 +101,47 @@ static bool at_rest(struct run *r) {
                         r->set->scene.law.vmin);
 }
 
-/* The exit status of a run that ends at t for what was found, and in reason
-   what the bed is marked with. */
-static int failed(double t, const struct watch_finding *f, char *reason,
-                  size_t size) {
-  snprintf(reason, size, "failed at t=%.6g: %s", t, f->what);
-  warn("t=%.6g: %s; the bed is marked as failed (docs/stability.md, \"%s\")", t,
-       f->what, f->page);
-  return EXIT_INTEGRATION;
-}
-
-/* One step and what follows from it. GSL_EFAILED for what is in f, GSL_ENOMEM,
-   GSL_CONTINUE for the next. */
-static int step(struct run *r, struct watch_finding *f) {
+/* One step and what follows from it. False if the run cannot go on. */
+static bool step(struct run *r) {
+  struct watch_finding f = {.page = "Missed collisions"};
   int status = integrate_step(r->motion->integrator);
-  if (status != GSL_SUCCESS && status != GSL_ENOMEM) {
-    snprintf(f->what, sizeof f->what, "%s",
+  if (status == GSL_SUCCESS) {
+    if (r->log)
+      write_log(r);
+    status = watch_step(r->watch, &f);
+  } else
+    snprintf(f.what, sizeof f.what, "%s",
              integration_error(&r->set->integrate, status));
-    f->page = "Missed collisions";
-    return GSL_EFAILED;
-  }
-  if (status == GSL_SUCCESS && r->log)
-    write_log(r);
-  if (status == GSL_SUCCESS)
-    status = watch_step(r->watch, f);
-  if (status == GSL_SUCCESS)
-    status = write_due_frames(r, f);
-  watch_progress(r->watch);
-  return status;
-}
-
-/* Steps until the end, rest or failure; the exit status and, in reason, what
-   the bed is marked with. */
-static int integrate_all(struct run *r, char *reason, size_t size) {
-  const struct settings *s = r->set;
-  struct watch_finding f;
-  bool rests = false;
-  int status = write_due_frames(r, &f);
-  while (status == GSL_SUCCESS && !rests &&
-         integrate_time(r->motion->integrator) < s->time) {
-    status = step(r, &f);
-    rests = status == GSL_SUCCESS && s->until_rest && at_rest(r);
-  }
-  const double t = GSL_MIN(integrate_time(r->motion->integrator), s->time);
-  /* ended before the last frame: the state reached is one more */
-  if (status != GSL_ENOMEM && r->frames < s->frames) {
-    struct watch_finding later;
-    const int last = write_state(r, t, true, &later);
-    if (status == GSL_SUCCESS) {
-      status = last;
-      f = later;
-    }
-  }
   if (status == GSL_ENOMEM)
     die(EXIT_IO, "out of memory");
-  watch_end(r->watch, status != GSL_SUCCESS);
-  if (status != GSL_SUCCESS)
-    return failed(t, &f, reason, size);
-  snprintf(reason, size, "ok");
+  if (status != GSL_SUCCESS) {
+    fail(r, integrate_time(r->motion->integrator), &f);
+    return false;
+  }
+  write_due_frames(r);
+  watch_progress(r->watch);
+  return true;
+}
+
+/* Steps until the end, rest or failure; the exit status. */
+static int integrate_all(struct run *r) {
+  const struct settings *s = r->set;
+  bool goes_on = true, rests = false;
+  write_due_frames(r);
+  while (goes_on && !rests && integrate_time(r->motion->integrator) < s->time) {
+    goes_on = step(r);
+    rests = goes_on && s->until_rest && at_rest(r);
+  }
+  /* ended before the last frame: the state reached is one more */
+  if (r->frames < s->frames)
+    write_state(r, GSL_MIN(integrate_time(r->motion->integrator), s->time),
+                true);
+  watch_end(r->watch, !goes_on);
+  if (r->failed)
+    return EXIT_INTEGRATION;
   if (rests || !s->until_rest)
     return EXIT_DONE;
-  snprintf(reason, size, "limit: not at rest at t=%g", s->time);
+  snprintf(r->mark, sizeof r->mark, "limit: not at rest at t=%g", s->time);
   warn("not at rest at t=%g: surfaces still move at %.3g m/s, expected below "
        "vmin = %g m/s",
        s->time,
@@ -163,7 +153,8 @@ static int integrate_all(struct run *r, char *reason, size_t size) {
 
 int run(const struct settings *s, struct bed *b,
         const struct bed_header *header) {
-  struct run r = {.set = s, .header = header, .bed = b, .start = b->t};
+  struct run r = {
+      .set = s, .header = header, .bed = b, .start = b->t, .mark = "ok"};
   const struct run_clock begun = run_clock_now();
   r.rest = rest_watch_begin(b->t);
   int status = motion_alloc(
@@ -189,9 +180,8 @@ int run(const struct settings *s, struct bed *b,
     die(EXIT_INPUT, "the start's energy is not finite");
   if (status != GSL_SUCCESS)
     die_status(status, "start");
-  char reason[160];
-  const int code = integrate_all(&r, reason, sizeof reason);
-  bed_write_status(stdout, reason);
+  const int code = integrate_all(&r);
+  bed_write_status(stdout, r.mark);
   finish_output();
   if (s->log)
     output_commit(&log);

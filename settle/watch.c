@@ -339,6 +339,13 @@ int watch_step(struct watch *w, struct watch_finding *f) {
   return status;
 }
 
+void watch_fail(struct watch *w, double t, const struct watch_finding *f) {
+  run_watch_say(w->run,
+                "t=%.6g: %s; the bed is marked as failed (docs/stability.md, "
+                "\"%s\")",
+                t, f->what, f->page);
+}
+
 void watch_progress(struct watch *w) {
   run_watch_progress(w->run, w->set->time, watch_evaluations(w));
 }

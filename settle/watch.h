@@ -40,6 +40,9 @@ int watch_step(struct watch *w, struct watch_finding *f);
 int watch_frame(const struct watch *w, const struct bed *b, bool last,
                 struct watch_finding *f);
 
+/* Says what was found at t. */
+void watch_fail(struct watch *w, double t, const struct watch_finding *f);
+
 /* Evaluations of the right-hand side that were the run's own, without those of
    the watch. */
 size_t watch_evaluations(const struct watch *w);

@@ -352,7 +352,7 @@ int integrate_step(struct integrator *it) {
   }
   if (status != GSL_SUCCESS)
     return status == GSL_EBADFUNC ? GSL_FAILURE : status;
-  assert(it->t > start && it->t <= it->stop);
+  assert(it->now.t > start && it->now.t <= it->stop);
   it->counts.accepted++;
   it->now.last_step = it->now.t - start;
   it->h = h;

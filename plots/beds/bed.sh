@@ -5,8 +5,9 @@
 # SETTINGS is a path that is the command line: model-rotation/tol-1e-3/seed-3
 # runs settle --model rotation --tol 1e-3 --seed 3, so that a file is named by
 # what made it; further options come after it. RUN is a command to run it under, such as a lock.
-# Columns: the settings, "-" where settle chose, but for count and time; status (ok, gave_up where no
-# step was short enough, stuck where LIMIT seconds of CPU time were not enough);
+# Columns: the settings, "-" where settle chose, but for count and time; status (ok,
+# outside where a centre was outside of the walls at a frame, gave_up where no step
+# was short enough, stuck where LIMIT seconds of CPU time were not enough);
 # cost; fractions up to 1 m above the base; spheres whose centre is outside the
 # walls in the end; and, of frames-K, the kinetic energy per sphere (J), mean
 # over the last eighth of the time and over the one before it.
@@ -39,7 +40,10 @@ ${RUN:-} bash -c 'ulimit -t "$0"; "$@"; exit $?' "$LIMIT" "$B/settle" --quiet \
 code=$?
 case $code in
   0) status=ok ;;
-  4) status=gave_up ;;
+  4)
+    status=gave_up
+    tail -n 1 "$T/bed" | grep -q ' centres ' && status=outside
+    ;;
   137 | 152) status=stuck ;; # by the limit on CPU time
   *)
     cat "$T/err" >&2

@@ -104,14 +104,16 @@ $(F)/table-costs.md: plots/paper/table-costs.sh \
 	@mkdir -p $(@D)
 	$< $(filter %.tsv,$^) > $@
 
-# The text's study of kappa: fraction and residual motion
+# The text's study of kappa: fraction and residual motion. With kappa = 30 centres
+# leave the box, so that settle calls the bed a failure, status 4.
 KAPPAS := 30 150 500
 kappa: $(F)/kappa.md ## kappa = 30, 150, 500: fraction and residual motion
 	@cat $<
 $(D)/kappa-%.tsv $(D)/kappa-%.log: $(B)/settle $(B)/analyze
 	@mkdir -p $(@D)
-	$(SETTLE) --model basic --kappa $* $(PAPER) --frames 9 \
-	  --log $(D)/kappa-$*.log | $(B)/analyze $(BOX) > $(D)/kappa-$*.tsv
+	{ $(SETTLE) --model basic --kappa $* $(PAPER) --frames 9 \
+	  --log $(D)/kappa-$*.log || [ $$? = 4 ]; } | \
+	  $(B)/analyze --allow-partial $(BOX) > $(D)/kappa-$*.tsv
 $(F)/kappa.md: plots/paper/kappa.sh $(KAPPAS:%=$(D)/kappa-%.tsv)
 	@mkdir -p $(@D)
 	$< $(KAPPAS:%=$(D)/kappa-%) > $@

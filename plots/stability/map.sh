@@ -5,7 +5,7 @@
 # A cell is a panel (model, method; -free without the limit by travel, -short
 # with lmax = 0.1 m for soft spheres as well), a tolerance or step, and kappa; of its seeds it shows the worst outcome:
 #   stopped    an energy no fall can give (over 100 J a sphere) or no number
-#   tunnelled  a sphere's centre is outside a wall in the end
+#   tunnelled  a sphere's centre is outside a wall at a frame or in the end
 #   gave_up    no step was short enough for the tolerance, or the CPU time did
 #              not suffice for steps that short
 #   jitter     kinetic energy per sphere above 0.01 J (14 cm/s) in the last
@@ -47,7 +47,7 @@ awk -F '\t' -v OFS='\t' '
     kinetic[cell] = e > kinetic[cell] ? e : kinetic[cell] + 0
     was[cell, i] = e !~ /^[0-9]/ || e > 100 ? "stopped" : \
       get("status") == "stuck" ? "gave_up" : \
-      get("outside") > 0 ? "tunnelled" : \
+      get("outside") > 0 || get("status") == "outside" ? "tunnelled" : \
       get("status") != "ok" ? "gave_up" : \
       e > 0.01 && e > get("kinetic_before") / 2 ? "jitter" : "settled"
   }

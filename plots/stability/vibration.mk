@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Does kappa = 500 vibrate? Kinetic energy per sphere over time of the variant
 # without friction; outputs: steps no longer than the time between 400 outputs
-# in 8 s, and no other limit, as in the author's program.
+# in 8 s, and no other limit, as in the author's program. With kappa = 30 centres
+# leave the box, so that settle calls the bed a failure, status 4.
 VIBRATION := $(BEDS)/vibration
 VIBRATION_RUNS := 30-rkc 150-rkc 150-merson 500-rkc 500-merson 500-loose \
   500-outputs
@@ -15,8 +16,8 @@ VIBRATION_500-outputs := --kappa 500 --method merson --travel 0 --hmax 0.02005
 define vibration_run
 $(VIBRATION)/$(1).tsv: | $(B)/settle
 	@mkdir -p $$(@D)
-	$(B)/settle --quiet --model basic $(VIBRATION_$(1)) \
-	  $(or $(BED_OPTIONS),--time 16) --frames 401 | \
+	{ $(B)/settle --quiet --model basic $(VIBRATION_$(1)) \
+	  $(or $(BED_OPTIONS),--time 16) --frames 401 || [ $$$$? = 4 ]; } | \
 	  awk -v run=$(1) -f plots/stability/kinetic.awk > $$@
 endef
 $(foreach r,$(VIBRATION_RUNS),$(eval $(call vibration_run,$(r))))
