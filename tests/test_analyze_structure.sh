@@ -194,7 +194,7 @@ is 'frictionless: no tangential force' "$(total tangential)" 0
 is 'a pipe of three frames' "$(wc -l <"$T/out")" 4
 
 # What is refused.
-printf 'x,y,z,r\n1,1,1,.1\n1,1,1,.1\n' >"$T/same"
+printf '# format=bed-1\nx\ty\tz\tr\n1\t1\t1\t.1\n1\t1\t1\t.1\n# %s\n' status=ok >"$T/same"
 printf '# format=bed-1\n# kappa=-1\nx\ty\tz\n1\t1\t1\n# status=ok\n' >"$T/kappa"
 printf '# format=bed-1\n# gravity=0\nx\ty\tz\n1\t1\t1\n# status=ok\n' \
   >"$T/weightless"
