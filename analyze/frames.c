@@ -108,8 +108,6 @@ static bool read_frame(struct frames *f, struct bed *b) {
   const char *note = bed_reader_note(f->reader);
   if (status == GSL_ENOMEM)
     die(EXIT_IO, "out of memory");
-  if (status == GSL_EINVAL || note)
-    fflush(stdout); /* rows of the frames before it, then the reason */
   if (status == GSL_EINVAL) {
     input_close(&f->in); /* has a better reason if it cannot be unpacked */
     die(EXIT_INPUT, "%s", bed_reader_error(f->reader));

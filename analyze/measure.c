@@ -17,7 +17,6 @@ void box_check(const struct option_list *box) {
 
 void frame_refuse(const struct frames *f, const struct bed *b,
                   const char *why) {
-  fflush(stdout); /* rows of the frames before it */
   die(EXIT_INPUT, "%s: t=%g: %s", f->name, b->t, why);
 }
 
@@ -180,7 +179,6 @@ void frame_check(const struct frames *f, const struct bed *b, int status) {
   case GSL_EINVAL:
     frame_refuse(f, b, "a number is not finite");
   default:
-    fflush(stdout); /* rows of the frames before it */
     die(EXIT_IO, "%s: t=%g: %s", f->name, b->t,
         status == GSL_ENOMEM ? "out of memory" : gsl_strerror(status));
   }

@@ -176,11 +176,9 @@ void table_close(struct table *t) {
   struct table_mean *m = t->beds.count > 1 ? &t->beds : &t->each;
   begin(m, true); /* counts the rows of the last one */
   if (t->mean && t->names) {
-    if (m->uneven) {
-      fflush(stdout);
+    if (m->uneven)
       die(EXIT_INPUT, "--mean: %s differ in the number of their rows",
           m == &t->beds ? "beds" : "frames");
-    }
     put_means(t, m, "mean", false);
     put_means(t, m, "standard_error", true);
   }

@@ -69,9 +69,7 @@ static void start(struct bounce *b, struct run_clock begun, bool quiet) {
       &b->watch,
       &(struct run_watch_options){
           .begun = begun,
-          .program = "bounce",
-          /* rows on the same terminal would be in its way */
-          .progress = !quiet && isatty(STDERR_FILENO) && !isatty(STDOUT_FILENO),
+          .quiet = quiet,
           .integrate = b->integrate,
           .integrator = b->it,
           .stiff = "the contact",

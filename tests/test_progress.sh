@@ -74,6 +74,25 @@ if command -v gnuplot >/dev/null; then
 else
   echo 'skipped: draw and movie (gnuplot is not installed)'
 fi
+# settle and bounce have the same line
+terminal_of() { # COMMAND
+  script -qec "timeout 120 $* 2>&1 >'$T/rows'" /dev/null | tr '\r' '\n' >"$T/screen"
+}
+terminal_of "'$B/settle' --time 8"
+shows 'settle' '^settle: +[0-9]+ %  t=[0-9.]+ s  h=.* [0-9]+ evaluations  [0-9]+ s left'
+check 'settle: the line is gone' test "$(tail -n 1 "$T/screen")" = $'\e[K'
+terminal_of "'$B/settle' --quiet --time 1"
+check 'settle --quiet' test ! -s "$T/screen"
+terminal_of "'$B/bounce' --tol 1e-13 --control standard --method rkf45 --time 3000"
+shows 'bounce' '^bounce: +[0-9]+ %  t=[0-9.]+ s .* s left'
+# rows on the same terminal: each on a line of its own
+script -qec "timeout 120 '$B/analyze' profile --points 3000 '$T/one.csv'" \
+  /dev/null | tr -d '\r' >"$T/screen"
+"$B/analyze" profile --points 3000 "$T/one.csv" >"$T/rows"
+shows 'rows on the terminal' 'frame 1  [0-9]+ s left'
+check 'rows on the terminal: whole' cmp -s "$T/rows" \
+  <(sed 's/^.*\x1b\[K//; s/analyze: .* left //' "$T/screen")
+
 # a message takes the line's place
 terminal "radius --keep fraction=0.5 '$T/one.csv'"
 shows 'radius' "$share.*frame 1  [0-9]+ s left"

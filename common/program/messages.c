@@ -45,6 +45,7 @@ void status_clear(void) {
 
 static void message(const char *format, va_list args) {
   status_clear();
+  fflush(stdout); /* the rows before it, on a terminal */
   fprintf(stderr, "%s: ", name);
   vfprintf(stderr, format, args);
 }
@@ -82,6 +83,7 @@ void warn(const char *format, ...) {
 }
 
 void finish_output(void) {
+  status_clear();
   const bool failed = ferror(stdout);
   if (fflush(stdout) == 0 && !failed)
     return;

@@ -18,7 +18,8 @@ void message_name(const char *program, const char *verb);
 const char *program_name(void);
 const char *program_verb(void);
 
-/* Prints "PROGRAM: MESSAGE" on one line of standard error and exits; after a
+/* Prints "PROGRAM: MESSAGE" on one line of standard error, after the rows that
+   standard output has so far, and exits; after a
    mistake in the use (EXIT_USAGE) the line ends with where the help is. */
 _Noreturn void die(enum exit_code code, const char *format, ...)
     __attribute__((format(printf, 2, 3)));

@@ -22,7 +22,13 @@ struct progress progress_begin(bool quiet) {
   struct progress p = {.shows = !quiet && isatty(STDERR_FILENO),
                        .begun = now()};
   p.looked = p.begun;
+  if (p.shows && isatty(STDOUT_FILENO))
+    setvbuf(stdout, NULL, _IOFBF, 1 << 22); /* more than is read in that time */
   return p;
+}
+
+bool progress_due(const struct progress *p) {
+  return now() >= p->looked + every;
 }
 
 void progress_restart(struct progress *p) {
@@ -39,6 +45,7 @@ void progress_name(struct progress *p, const char *format, ...) {
 /* Rows go to whoever waits for them; if nobody does any more, all is done. */
 static void pass_on(void) {
   struct pollfd out = {.fd = STDOUT_FILENO};
+  status_clear();
   if (ferror(stdout) || fflush(stdout) != 0)
     finish_output(); /* does not return */
   if (poll(&out, 1, 0) == 1 && out.revents & POLLERR)
@@ -55,10 +62,9 @@ static void show(const struct progress *p, double done, double elapsed) {
 }
 
 void progress_tell(struct progress *p, double done) {
-  const double t = now();
-  if (t < p->looked + every)
+  if (!progress_due(p))
     return;
-  p->looked = t;
+  const double t = p->looked = now();
   pass_on();
   if (p->shows)
     show(p, done, t - p->begun);

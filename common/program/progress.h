@@ -15,8 +15,12 @@ struct progress {
   char what[80];        /* the work's own words */
 };
 
-/* Begins the clock. */
+/* Begins the clock. Before any row is written: where rows go to a terminal too
+   they are kept until the line has made room for them. */
 struct progress progress_begin(bool quiet);
+
+/* Is it time to look again? For work that tells often and has much to say. */
+bool progress_due(const struct progress *p);
 
 /* What is being done, for the line; any text until the next call. */
 void progress_name(struct progress *p, const char *format, ...)

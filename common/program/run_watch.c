@@ -13,6 +13,7 @@
 #include "files/numbers.h"
 #include "platform/system.h"
 #include "program/messages.h"
+#include "program/progress.h"
 
 /* Energy that may be gained without a source, as a share of the energy in
    motion and contacts. */
@@ -45,7 +46,7 @@ struct energy { /* that cannot grow */
 
 struct run_watch {
   struct run_watch_options set;
-  double shown;       /* progress, on the wall's clock */
+  struct progress progress;
   double start, time; /* of the last step */
   size_t steps, warnings;
   double radius, radius_largest; /* spectral (1/s) */
@@ -83,7 +84,7 @@ int run_watch_alloc(struct run_watch **out, const struct run_watch_options *o) {
   if (!w)
     return GSL_ENOMEM;
   w->set = *o;
-  w->shown = o->begun.wall;
+  w->progress = progress_begin(o->quiet);
   w->start = w->time = integrate_time(o->integrator);
   const int status = pace_begin(&w->pace, o->integrate->method);
   if (status == GSL_SUCCESS)
@@ -103,18 +104,12 @@ void run_watch_free(struct run_watch *w) {
   free(w);
 }
 
-static void clear_line(const struct run_watch *w) {
-  if (w->set.progress)
-    fputs("\r\033[K", stderr);
-}
-
 void run_watch_say(struct run_watch *w, const char *format, ...) {
   char text[512];
   va_list arguments;
   va_start(arguments, format);
   vsnprintf(text, sizeof text, format, arguments);
   va_end(arguments);
-  clear_line(w);
   warn("%s", text);
   w->warnings++;
 }
@@ -157,7 +152,7 @@ void run_watch_step(struct run_watch *w) {
 }
 
 void run_watch_end(struct run_watch *w, bool failed) {
-  clear_line(w);
+  progress_end(&w->progress);
   if (failed)
     return;
   const struct pace *p = &w->pace;
@@ -238,19 +233,11 @@ double run_watch_energy_share(const struct run_watch *w) {
 /* --- progress --------------------------------------------------------------*/
 
 void run_watch_progress(struct run_watch *w, double end, size_t evaluations) {
-  if (!w->set.progress)
+  if (!progress_due(&w->progress))
     return;
-  const double now = seconds(CLOCK_MONOTONIC);
-  if (now < w->shown + 0.5)
-    return;
-  w->shown = now;
-  const double done = (w->time - w->start) / (end - w->start);
-  fprintf(stderr,
-          "\r%s: %3.0f %%  t=%.3f s  h=%.2e s  %zu evaluations  %.0f s left "
-          "\033[K",
-          w->set.program, 100 * done, w->time,
-          integrate_last_step(w->set.integrator), evaluations,
-          (now - w->set.begun.wall) * (1 - done) / GSL_MAX(done, 1e-9));
+  progress_name(&w->progress, "t=%.3f s  h=%.2e s  %zu evaluations", w->time,
+                integrate_last_step(w->set.integrator), evaluations);
+  progress_tell(&w->progress, (w->time - w->start) / (end - w->start));
 }
 
 /* --- statistics ------------------------------------------------------------*/
