@@ -257,7 +257,7 @@ void picture_run(struct picture *p, const char *package,
   if (!said)
     die(EXIT_IO, "%s: %s", p->scratch, strerror(errno));
   fflush(stdout);
-  const pid_t child = fork();
+  const pid_t child = litter_fork(); /* a signal ends it, and then us */
   if (child == 0) {
     const int none = open("/dev/null", O_RDWR);
     if (none < 0 || dup2(none, STDIN_FILENO) < 0 ||
@@ -268,7 +268,6 @@ void picture_run(struct picture *p, const char *package,
     _exit(errno == ENOENT ? 127 : 126);
   }
   int status = 0;
-  litter_child(child); /* a signal ends it, and then us */
   static const struct timespec pause = {.tv_nsec = 5000000};
   for (pid_t ended = 0; child > 0 && ended != child;) {
     ended = waitpid(child, &status, WNOHANG);
@@ -278,7 +277,7 @@ void picture_run(struct picture *p, const char *package,
     if (ended == 0)
       nanosleep(&pause, NULL);
   }
-  litter_child(0);
+  litter_forked();
   char text[200];
   first_line(said, text, sizeof text);
   fclose(said);

@@ -8,6 +8,7 @@
 #include <gsl/gsl_math.h>
 #include "files/numbers.h"
 #include "program/files.h"
+#include "program/litter.h"
 #include "program/integration.h"
 #include "model/rest.h"
 #include "dynamics/motion.h"
@@ -128,7 +129,8 @@ static int integrate_all(struct run *r) {
   const struct settings *s = r->set;
   bool goes_on = true, rests = false;
   write_due_frames(r);
-  while (goes_on && !rests && integrate_time(r->motion->integrator) < s->time) {
+  while (goes_on && !rests && !litter_asked() &&
+         integrate_time(r->motion->integrator) < s->time) {
     goes_on = step(r);
     rests = goes_on && s->until_rest && at_rest(r);
   }
@@ -139,6 +141,13 @@ static int integrate_all(struct run *r) {
   watch_end(r->watch, !goes_on);
   if (r->failed)
     return EXIT_INTEGRATION;
+  const double t = integrate_time(r->motion->integrator);
+  if (litter_asked() && !rests && t < s->time) {
+    snprintf(r->mark, sizeof r->mark, "interrupted at t=%.6g", t);
+    warn("%s: the bed is marked so; --allow-partial --scene goes on from it",
+         r->mark);
+    return EXIT_LIMIT;
+  }
   if (rests || !s->until_rest)
     return EXIT_DONE;
   snprintf(r->mark, sizeof r->mark, "limit: not at rest at t=%g", s->time);
@@ -180,6 +189,7 @@ int run(const struct settings *s, struct bed *b,
     die(EXIT_INPUT, "the start's energy is not finite");
   if (status != GSL_SUCCESS)
     die_status(status, "start");
+  litter_defer(); /* a signal ends the run after its step */
   const int code = integrate_all(&r);
   bed_write_status(stdout, r.mark);
   finish_output();

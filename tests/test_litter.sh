@@ -28,18 +28,61 @@ number() {
 }
 
 # A run of hours, with files beside it
-for signal in HUP INT QUIT TERM XCPU ABRT; do
+begin() { # ARGUMENT...: settle, in the background, until it has its log
   # bash has its background ignore INT and QUIT: env sets them right again
   env --default-signal "$B/settle" --quiet --count 200 --method merson \
     --time 1000 --log "$D/log" --stats "$D/stats" >"$T/out" 2>"$T/err" &
   pid=$!
-  check "$signal: it has begun" waits there "$D/log.partial-*"
-  kill -s $signal $pid
+  check "$1: it has begun" waits there "$D/log.partial-*"
+}
+end() { # its status
   wait $pid 2>/dev/null
   status=$?
+}
+# What ends it at once
+for signal in QUIT ABRT; do
+  begin $signal
+  kill -s $signal $pid
+  end
   check "$signal: the status is $status" test $status = $((128 + $(number $signal)))
   check "$signal: nothing is left" test -z "$(ls "$D")"
 done
+# What lets it end its step: all that it has is written
+for signal in HUP INT TERM XCPU; do
+  begin $signal
+  waits test -s "$T/out" # not before it is ready to wait
+  sleep 0.2
+  kill -s $signal $pid
+  end
+  check "$signal: the status is $status" test $status = 5
+  check "$signal: one line" test "$(wc -l <"$T/err")" = 1 -a \
+    "$(grep -c '^settle: interrupted at t=' "$T/err")" = 1
+  check "$signal: log and stats" test "$(ls "$D" | tr '\n' ' ')" = 'log stats '
+  check "$signal: the bed is marked" grep -q '^# status=interrupted at t=' "$T/out"
+  check "$signal: with the state reached" test \
+    "$(grep '^# t=' "$T/out" | tail -n 1)" = \
+    "# t=$(tail -n 1 "$D/log" | cut -f 1)"
+  check "$signal: of all spheres" test "$(grep -c '^[0-9]' "$T/out")" = 200
+  check "$signal: refused as it is" eval \
+    '! "$B/settle" --quiet --scene "$T/out" --time 1000 >"$T/next" 2>&1'
+  rm "$D"/*
+done
+t=$(sed -n 's/^# t=//p' "$T/out" | tail -n 1)
+"$B/settle" --quiet --allow-partial --scene "$T/out" --time "$t" >"$T/next" \
+  2>"$T/said"
+check 'it goes on from there' cmp -s <(grep '^[0-9]' "$T/out") \
+  <(grep '^[0-9]' "$T/next")
+# The second signal does not wait; while it is stopped, both come.
+begin twice
+sleep 0.2
+kill -s STOP $pid
+kill -s INT $pid
+kill -s TERM $pid
+kill -s CONT $pid
+end
+check "a second signal: the status is $status" test $status = 130 -o \
+  $status = 143
+check 'a second signal: nothing is left' test -z "$(ls "$D")"
 # as nohup starts it
 (trap '' HUP; exec "$B/settle" --quiet --count 200 --method merson --time 1000 \
   --log "$D/log" >"$T/out" 2>"$T/err") &
@@ -48,8 +91,8 @@ check 'nohup: it has begun' waits there "$D/log.partial-*"
 kill -s HUP $pid
 sleep 0.2
 check 'nohup: it goes on' kill -0 $pid
-kill -s TERM $pid
-wait $pid 2>/dev/null
+kill -s QUIT $pid
+end
 check 'nohup: nothing is left' test -z "$(ls "$D")"
 
 # A picture that takes a while: its program goes too
@@ -98,7 +141,7 @@ quiet_end settle settle --quiet --count 8 --method merson --time 1000 \
   --frames 1000000 --log "$D/log"
 check 'nothing is left' test -z "$(ls "$D")"
 # the same where the caller has pipes' signals ignored
-(trap '' PIPE; quiet_end 'ignored' bounce --samples 1000000000
+(trap '' PIPE; failed=0; quiet_end 'ignored' bounce --samples 1000000000
   check_done >"$T/sum")
 check 'ignored signals: as well' grep -q ' 0 failed' "$T/sum"
 # Another pipe than standard output is an error that is named, and the bed is

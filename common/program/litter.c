@@ -20,6 +20,8 @@ struct place {
 };
 static struct place *_Atomic places;
 static atomic_long helper; /* pid */
+static atomic_bool deferred;
+static atomic_int asked;
 
 /* Only what a signal handler may call. */
 static void remove_all(void) {
@@ -38,6 +40,10 @@ static void remove_all(void) {
 }
 
 static void end_by(int number) {
+  if (deferred && !asked && number != SIGQUIT && number != SIGABRT) {
+    asked = number;
+    return;
+  }
   remove_all();
   signal(number, SIG_DFL);
   raise(number); /* comes when this handler returns */
@@ -58,26 +64,28 @@ static void go_on(int number) {
   (void)number;
 }
 
-static void catch_signal(int number, void (*handler)(int)) {
+/* Signals that end a process. */
+static const int ends[] = {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGXCPU, SIGABRT};
+static bool caught[sizeof ends / sizeof *ends]; /* not ignored from the start */
+
+static bool catch_signal(int number, void (*handler)(int)) {
   struct sigaction old, new = {.sa_handler = handler, .sa_flags = SA_RESTART};
   sigemptyset(&new.sa_mask);
-  const bool asked = number == SIGPIPE || number == SIGXFSZ;
+  const bool always = number == SIGPIPE || number == SIGXFSZ;
   /* not SIG_IGN for those two: programs that we start would inherit it */
-  if (sigaction(number, NULL, &old) == 0 &&
-      (asked || old.sa_handler != SIG_IGN))
-    sigaction(number, &new, NULL);
+  return sigaction(number, NULL, &old) == 0 &&
+         (always || old.sa_handler != SIG_IGN) &&
+         sigaction(number, &new, NULL) == 0;
 }
 
 void litter_watch(void) {
-  static const int ends[] = {SIGHUP,  SIGINT,  SIGQUIT,
-                             SIGTERM, SIGXCPU, SIGABRT};
   static bool watched;
   if (watched)
     return;
   watched = true;
   atexit(remove_all);
   for (size_t k = 0; k < sizeof ends / sizeof *ends; k++)
-    catch_signal(ends[k], end_by);
+    caught[k] = catch_signal(ends[k], end_by);
   catch_signal(SIGPIPE, end_by_pipe);
   catch_signal(SIGXFSZ, go_on);
 }
@@ -102,6 +110,31 @@ void litter_forget(const char *path) {
       p->path = NULL;
 }
 
-void litter_child(pid_t child) {
-  helper = child;
+/* No signal comes between the fork and the knowledge of it; the child goes by
+   the default until it is another program. */
+pid_t litter_fork(void) {
+  sigset_t all, before;
+  sigfillset(&all);
+  sigprocmask(SIG_BLOCK, &all, &before);
+  const pid_t child = fork();
+  if (child > 0)
+    helper = child;
+  if (child == 0)
+    for (size_t k = 0; k < sizeof ends / sizeof *ends; k++)
+      if (caught[k])
+        signal(ends[k], SIG_DFL);
+  sigprocmask(SIG_SETMASK, &before, NULL);
+  return child;
+}
+
+void litter_forked(void) {
+  helper = 0;
+}
+
+void litter_defer(void) {
+  deferred = true;
+}
+
+int litter_asked(void) {
+  return asked;
 }

@@ -9,6 +9,9 @@
    the write, as is a file that grows too large (XFSZ). Signals that are ignored
    from the start, as nohup does with HUP, stay ignored.
 
+   A program that has something worth keeping may ask for time (litter_defer):
+   the first HUP, INT, TERM or XCPU then waits for it, the next one does not.
+
    Not to be called by more than one thread at a time. Tested in
    tests/test_litter.sh. */
 #ifndef LITTER_H
@@ -25,7 +28,14 @@ void litter_add(const char *path);
 /* It is complete, or gone. */
 void litter_forget(const char *path);
 
-/* A child that is to end with this process; 0: none any more. */
-void litter_child(pid_t child);
+/* fork for a child that is to end with this process, and has no litter of its
+   own; in this one until litter_forked, once the child was waited for. */
+pid_t litter_fork(void);
+void litter_forked(void);
+
+/* From now on the first of those signals is only noted. */
+void litter_defer(void);
+/* Its number, 0 if there was none. */
+int litter_asked(void);
 
 #endif
