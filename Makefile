@@ -118,6 +118,9 @@ sanitize: ## run the tests with the address and undefined-behaviour sanitizers
 tidy: ## what cppcheck, clang-tidy and gcc -fanalyzer find
 	tests/tidy.sh
 
+clients: all ## have the programs that beds are handed to read them (minutes)
+	@B=$(B) tests/clients.sh
+
 # What the fuzzer finds is kept in B/fuzz; the small cases of tests/corpus are
 # read again by tests/test_formats.c.
 FUZZ_CC ?= clang
@@ -216,4 +219,4 @@ help: ## this list
 
 include plots/rules.mk plots/captions.mk
 
-.PHONY: all check check-quick sanitize tidy fuzz deps deps-developer demo man install uninstall clean help
+.PHONY: all check check-quick clients sanitize tidy fuzz deps deps-developer demo man install uninstall clean help

@@ -97,7 +97,7 @@ static void write_snappy(FILE *out, const double point[3], double clearance) {
           "    maxThicknessToMedialRatio 0.3;\n    minMedianAxisAngle 90;\n"
           "    nBufferCellsNoExtrude 0;\n    nLayerIter 50;\n}\n\n"
           "meshQualityControls\n{\n"
-          "    maxNonOrtho 65;\n    maxBoundarySkewness 20;\n"
+          "    maxNonOrtho 65;\n    maxBoundarySkewness 4;\n"
           "    maxInternalSkewness 4;\n    maxConcave 80;\n"
           "    minVol 1e-30;\n    minTetQuality 1e-15;\n    minArea -1;\n"
           "    minTwist 0.02;\n    minDeterminant 0.001;\n"
