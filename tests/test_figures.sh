@@ -38,7 +38,7 @@ declare -A makes=(
   [bench-peers]='peers.md:2'
 )
 # Targets that make no figure; bench-clean comes last.
-others=' all check fuzz deps demo install uninstall clean help readme docs-figures bench-clean'
+others=' all check clients fuzz deps demo install uninstall clean help readme docs-figures bench-clean'
 others+=' sanitize tidy check-long check-quick deps-developer man '
 
 targets=()
