@@ -234,6 +234,80 @@ refuse 'a bad key' 3 'kappa: t=0: kappa=-1.*above 0' rest "$T/kappa"
 refuse 'a share of no weight' 3 'gravity' contacts --force 1 "$T/weightless"
 measure contacts "$T/weightless"
 is 'no weight to carry' "$(value floor)" nan
+# --- what a contact, a rattler, a floor is --------------------------------------
+scene() { # KEY=VALUE...: a bed of the rows "x y z r [vx]" on standard input
+  printf '# format=bed-1\n# t=0\n'
+  printf '# %s\n' "$@"
+  printf 'x\ty\tz\tr\tvx\tvy\tvz\n'
+  awk -v OFS='\t' '{print $1, $2, $3, $4, $5 + 0, 0, 0}'
+  echo '# status=ok'
+}
+# each of three has two contacts, each of six (an octahedron) four
+ring() { printf '0 0 0 0.5\n1 0 0 0.5\n0.5 0.8660254 0 0.5\n'; }
+octahedron() {
+  for x in '1 0 0' '-1 0 0' '0 1 0' '0 -1 0' '0 0 1' '0 0 -1'; do
+    echo "$x 0.70710679"
+  done
+}
+ring | scene model=friction friction=0.2 >"$T/ring"
+measure contacts "$T/ring"
+is 'friction: two contacts hold' "$(value rattlers)" 0
+ring | scene model=basic >"$T/ring"
+measure contacts "$T/ring"
+is 'no friction: two do not' "$(value rattlers)" 3
+octahedron | scene model=basic >"$T/octahedron"
+measure contacts "$T/octahedron"
+is 'no friction: four contacts hold' "$(value rattlers)" 0
+is 'no friction: four contacts' "$(value z)" 4
+# walls that face gravity within 45 degrees are floors
+for degrees in 40 44 46 50; do
+  normal=$(awk -v a=$degrees 'BEGIN {a *= atan2(0, -1) / 180
+    printf "%.17g 0 %.17g", sin(a), -cos(a)}')
+  at=$(awk -v a=$degrees 'BEGIN {a *= atan2(0, -1) / 180
+    printf "%.17g 0 %.17g 0.1", -0.1 * sin(a), 0.1 * cos(a)}')
+  scene "wall=0 0 0 $normal" <<<"$at" >"$T/slope"
+  measure contacts "$T/slope"
+  other=$([[ $degrees -lt 45 ]] && echo sides || echo floor)
+  is "a wall at $degrees degrees: no $other" "$(value $other)" 0
+  check "a wall at $degrees degrees carries" test "$(value floor)" != \
+    "$(value sides)"
+done
+# an overlap is one whether or not the pair counts, and a gap is none though it
+# does: pairs at an overlap of 0.02 (0.1 diameters) and a gap of 0.05
+printf '0 0 0 0.1\n0.18 0 0 0.1\n5 0 0 0.1\n5.25 0 0 0.1\n' |
+  scene gravity=0,0,0 model=basic >"$T/pairs"
+for gap in -0.05 0 0.06; do
+  measure contacts --gap $gap "$T/pairs"
+  is "--gap $gap: mean overlap" "$(value overlap_mean)" 0.1 1e-12
+  is "--gap $gap: largest overlap" "$(value overlap_max)" 0.1 1e-12
+done
+is '--gap 0.06: pairs' "$(value pairs)" 2
+# touching exactly counts
+printf '0 0 0 0.125\n0.25 0 0 0.125\n' | scene model=basic >"$T/touch"
+measure contacts "$T/touch"
+is 'spheres that touch' "$(value pairs)" 1
+# unbalanced: the mean force on a sphere, (N + N e^(-150 0.07))/2, by that of the
+# contacts that touch, N
+measure rest --box -1,6,-1,1,-1,1 "$T/pairs"
+is 'only what touches is a contact' "$(value unbalanced)" \
+  "$(awk 'BEGIN {printf "%.17g", (1 + exp(-150 * 0.07)) / 2}')" 1e-12
+# both have the force of their one contact, friction and all
+printf '0 0 0 0.1 0.005\n0 0 0.19 0.1 -0.005\n' |
+  scene gravity=0,0,0 model=friction friction=0.5 >"$T/sliding"
+measure rest --box -1,1,-1,1,-1,1 "$T/sliding"
+is "a contact's force has its friction" "$(value unbalanced)" 1 1e-12
+measure contacts --network "$T/sliding"
+check 'which is not small' awk -v t="$(value tangential)" -v n="$(value normal)" \
+  'BEGIN {exit !(t > 0.2 * n)}'
+
+# coordination: up to the end each of two has one partner, of three two
+for n in 2 3; do
+  awk -v n=$n 'BEGIN {print "x,y,z,r"
+    for (i = 0; i < n; i++) print 0.5 + 0.01 * i ",0.5,0.5,0.1"}' >"$T/few.csv"
+  measure gr --box 0,1,0,1,0,1 --rmax 2 --bins 40 "$T/few.csv"
+  is "coordination of $n" "$(value coordination 40)" $((n - 1)) 1e-12
+done
+
 for verb in contacts rest gr order; do
   "$B/analyze" $verb "$T/sc" >/dev/full 2>"$T/err"
   is "$verb: a full disk" $? 1

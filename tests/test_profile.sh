@@ -73,6 +73,13 @@ check "slabs" is 'n == 4 && r["z0"] == 0.75 && r["z1"] == 0.9'
 check "slabs: of a lattice" is 'near(first["sum"], pi / 6, 1e-14)'
 run analyze --until 1.5 --slab 0.1 "$T/last"
 check "slabs: no sliver" is 'n == 15 && r["z1"] == 1.5'
+# quotients that rounding has above a whole number: 7.000000000000001 and so on
+for cut in 2.1/0.3/7 2.1/0.7/3 2.7/0.3/9; do
+  IFS=/ read -r until slab want <<<"$cut"
+  run analyze --until "$until" --slab "$slab" "$T/last"
+  check "slabs of $slab up to $until" is "n == $want && r[\"z1\"] == $until"
+done
+run analyze --until 1.5 --slab 0.1 "$T/last"
 slabs=$(awk 'NR > 1 {s += $8; u += $9} END {printf "%.17g %.17g", s/15, u/15}' "$T/out")
 run analyze --until 1.5 "$T/last"
 check "slabs: add up" is "near(r[\"sum\"], ${slabs% *}, 1e-13) &&
@@ -84,6 +91,14 @@ boxes() { printf '%b' "$1" >"$T/bad"; }
 boxes '0 1 0 1 0 1\n0 1 0 1 0\n'
 printf 'x,y,z,r\n0.5,0.5,0.5,1e9\n' > "$T/huge"
 refuse "a sphere too large for the box" 3 'too small' "$T/huge"
+# six digits are left where the box is 1e-9 of r^3
+printf 'x,y,z,r\n-989.5,0.5,0.5,990\n' >"$T/large"
+run analyze --box 0,1,0,1,0,1 "$T/large"
+# up to x = 0.5 and the little that the sphere bends away: (1/12 + 1/12) / 2r
+check "a sphere that is just not too large" is 'near(r["union"], 0.5 - 1 / 12 / 990,
+  1e-6)'
+printf 'x,y,z,r\n-1009.5,0.5,0.5,1010\n' >"$T/large"
+refuse "a sphere that is just too large" 3 'too small' "$T/large"
 refuse "boxes: five numbers" 3 'bad:2: expected six' --boxes "$T/bad" "$T/one"
 boxes '0 1 0 1 0 1 1\n'
 refuse "boxes: seven numbers" 3 'bad:1: expected six' --boxes "$T/bad" "$T/one"

@@ -22,8 +22,10 @@ struct progress progress_begin(bool quiet) {
   struct progress p = {.shows = !quiet && isatty(STDERR_FILENO),
                        .begun = now()};
   p.looked = p.begun;
+  /* more than is written, and read, until the line is looked at again */
+  static char rows[1 << 20];
   if (p.shows && isatty(STDOUT_FILENO))
-    setvbuf(stdout, NULL, _IOFBF, 1 << 22); /* more than is read in that time */
+    setvbuf(stdout, rows, _IOFBF, sizeof rows);
   return p;
 }
 
