@@ -17,7 +17,7 @@ function get(name) { return $(at[name]) }
 function put(panel, y, interval,  kind) {
   if (interval == "nan") interval = 0 # of one seed
   kind = get("status") == "failed" ? "failed" : \
-    y > interval + 0 ? "point" : "limit"
+    interval + 0 > 0 && y <= interval + 0 ? "limit" : "point"
   rows[panel] = rows[panel] panel OFS side OFS get("method") OFS setting OFS get("seeds") \
     OFS x OFS (kind == "limit" ? y + interval : y) OFS y - interval OFS \
     y + interval OFS kind OFS is_default "\n"
@@ -59,7 +59,8 @@ END {
   print "# cost_mean=" sprintf(cost, least["rotation"], most["rotation"])
   print "# cost_plain=" sprintf(cost, least["basic"], most["basic"])
   for (m in few)
-    print "# seeds_" m "=" (few[m] < many[m] ? few[m] " to " : "") many[m]
+    print "# seeds_" m "=" (few[m] < many[m] ? few[m] " to " : "") many[m] \
+      (many[m] > 1 ? " seeds" : " seed")
   print "panel", "side", "method", "setting", "seeds", "x", "y", "low", \
     "high", "kind", "default"
   printf "%s%s%s", rows["single"], rows["mean"], rows["plain"]

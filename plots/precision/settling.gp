@@ -34,7 +34,7 @@ set xtics 10
 panels = "single mean plain"
 headings = "'single beds, friction and rotation' ". \
   "'mean, friction and rotation' 'mean, no friction'"
-high = 0.25
+high = 0.26
 unset key
 set multiplot
 do for [p=1:3] {
@@ -73,9 +73,13 @@ do for [p=1:3] {
       for [m in methods] ARG1 using (is(m, "failed") ? x(m) : NaN):(top/2) \
         with points pt 2 ps 1.6*symbol lw line lc rgb method_colour(m) \
         notitle, \
-      for [m in left && p == 1 ? methods : ""] ARG1 using (is(m, "point") ? \
+      for [m in left && p == 1 ? "verlet" : ""] ARG1 using (is(m, "point") ? \
         x(m) : NaN):(above(column("y"))):(strcol("setting")) with labels left \
-        offset 0.8,0.7 font ",16" tc rgb method_colour(m) notitle, \
+        offset 0.8,0.6 font ",16" tc rgb method_colour(m) notitle, \
+      for [m in left && p == 1 ? "rkc" : ""] ARG1 using (is(m, "point") ? \
+        x(m) : NaN):(above(column("y"))):(strcol("setting")) with labels right \
+        offset -1.2,-0.5 font ",16" \
+        tc rgb method_colour(m) notitle, \
       for [m in left && p == 3 ? methods : ""] ARG1 using (is(m, "point") || \
         is(m, "limit") ? x(m) : NaN):(above(column("high"))): \
         (strcol("setting")) with labels left rotate by 90 offset 0,0.4 \
@@ -86,7 +90,7 @@ do for [p=1:3] {
         lc rgb black notitle, \
       for [m in "rkc verlet merson dopri5 rkf45"] keyentry with linespoints \
         lw line pt method_point(m) ps symbol lc rgb method_colour(m) \
-        title method_title(m).", ".header(ARG1, "seeds_".m)." seeds", \
+        title method_title(m).", ".header(ARG1, "seeds_".m), \
       keyentry with points pt 6 ps 2.6*symbol lw line lc rgb black \
         title "settle's default", \
       keyentry with vectors filled head lw 1.5*thin lc rgb black \
