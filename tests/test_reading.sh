@@ -174,6 +174,18 @@ printf '# format=bed-1\n# t=0\nx\ty\tz\tr\n0\t0\t0\t1\n# status=ok\n' \
 "$B/analyze" contacts "$T/none" >"$T/out" 2>"$T/err"
 check 'our own without walls: as it says' test ! -s "$T/err"
 
+# --- columns that the user names, in every format -----------------------------
+reads radius-fifth.xyz '0 1.125' --columns -,x,y,z,d
+reads quoted.xyz '2 0.125' --columns -,x,y,z,d
+reads general-triclinic.dump '0 0.125' --columns id,x,y,z,d
+reads sphere.data '0 16' --columns id,-,r,-,x,y,z
+reads sphere.data '0 16' --columns -,-,r,-,x,y,z
+refuses keys-of-others.csv "6: 'x,y,z,r': expected rows of numbers in 5 col" \
+  --columns x,y,z,-,r
+"$B/analyze" --columns x,y,z,r "$T/none" >"$T/out" 2>"$T/err"
+check "--columns for a bed: status $?" test $? = 3 -a \
+  "$(grep -c "$T/none:3: --columns: a bed has names" "$T/err")" = 1
+
 # --- options ------------------------------------------------------------------
 for list in x,y x,y,z,q x,y,z,T x,x,y,z ''; do
   "$B/analyze" --columns "$list" $cases/positions.txt >"$T/out" 2>"$T/err"

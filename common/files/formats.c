@@ -58,10 +58,20 @@ int bed_reader_open(struct bed_reader **out, FILE *in, const char *name,
   return GSL_SUCCESS;
 }
 
+/* The first line that is neither blank nor a comment, or else the first that is
+   not blank. */
+static size_t first_line(const struct bed_reader *r) {
+  size_t first = r->kept_count;
+  for (size_t k = r->kept_count; k-- > 0;)
+    if (!line_is_blank(r->kept[k].text) &&
+        (first == r->kept_count || !comment_sign(r->kept[k].text) ||
+         comment_sign(r->kept[first].text)))
+      first = k;
+  return first;
+}
+
 static int none_begins(struct bed_reader *r) {
-  size_t first = 0;
-  while (first < r->kept_count && line_is_blank(r->kept[first].text))
-    first++;
+  const size_t first = first_line(r);
   if (first == r->kept_count)
     return reader_fail(r, "nothing is in the file: expected a bed, which ends "
                           "with '# status=ok', or another format");

@@ -253,6 +253,8 @@ static int read_velocity(struct bed_reader *r, const struct place *places) {
 static int read_velocities(struct bed_reader *r, struct data_state *s) {
   if (!s->has_atoms)
     return reader_fail(r, "section Velocities before Atoms");
+  if (!r->columns.has[COLUMN_ID])
+    return GSL_SUCCESS; /* whose they are is not known */
   struct place *places = malloc((r->rows_count + 1) * sizeof *places);
   if (!places)
     return GSL_ENOMEM;
@@ -272,7 +274,6 @@ static int read_velocities(struct bed_reader *r, struct data_state *s) {
 
 static int read_section(struct bed_reader *r, struct data_state *s) {
   const char *comment = strchr(r->line, '#');
-  reader_clear_columns(r, BLANKS);
   if (begins_section(r->line, "Atoms")) {
     const int status =
         r->options.columns ? GSL_SUCCESS : read_style(r, s, comment);
@@ -294,6 +295,7 @@ static int next_data(struct bed_reader *r, struct bed *b) {
   struct data_state *s = r->state;
   if (s->done)
     return GSL_EOF;
+  reader_clear_columns(r, BLANKS);
   int status = reader_line(r); /* the title */
   while (status == GSL_SUCCESS && (status = reader_line(r)) == GSL_SUCCESS)
     status = read_section(r, s);
