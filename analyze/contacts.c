@@ -292,7 +292,7 @@ static void print_frame(struct table *table, struct frames *f,
 
 int verb_contacts(int argc, char **argv) {
   struct contacts set = {.bin = 0.005};
-  struct frames_options input = {.many = true};
+  struct frames_options input = {.many = true, .scene = true};
   bool means = false;
   /* clang-format off */
   struct option_spec options[] = {

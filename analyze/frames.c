@@ -161,7 +161,10 @@ const char *frames_status(const struct frames *f) {
 }
 
 void frames_close(struct frames *f) {
-  progress_end(&f->progress);
+  if (f->options.scene && !frames_are_beds(f))
+    warn("%s: has no walls and no parameters; without walls, and with the "
+         "parameters that settle has by default",
+         f->name);
   bed_reader_close(f->reader);
   input_close(&f->in);
 }

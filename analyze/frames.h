@@ -17,6 +17,7 @@ struct frames_options {
   bool quiet;          /* no progress */
   bool may_be_empty;   /* a frame of no spheres is no error */
   bool many;           /* several files are no error */
+  bool scene; /* walls and parameters count: say where there are none */
 };
 
 /* Rows of a verb's option table, into a struct frames_options s. */

@@ -48,10 +48,6 @@ static double mean_radius(const struct bed *b) {
 
 struct scene frame_scene(const struct frames *f, const struct bed *b) {
   struct scene s;
-  if (f->first && !frames_are_beds(f))
-    warn("%s: has no walls and no parameters; without walls, and with the "
-         "parameters that settle has by default",
-         f->name);
   const char *wrong = scene_from_header(&s, frames_header(f));
   if (wrong)
     frame_refuse(f, b, wrong);

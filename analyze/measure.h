@@ -22,8 +22,7 @@ void box_check(const struct option_list *box);
 
 /* The scene of the frame just read, to be freed: its header's keys over
    settle's defaults, but for lmax, whose default is the mean radius, as it is
-   in settle's bed. Warns of a format that has no scene. Exits with EXIT_INPUT on
-   a bad key. */
+   in settle's bed. Exits with EXIT_INPUT on a bad key. */
 struct scene frame_scene(const struct frames *f, const struct bed *b);
 
 /* Warns if the frame's radius is not that of the dynamics, since forces then

@@ -61,7 +61,7 @@ static struct energies energies(const struct frames *f, const struct scene *s,
 
 int verb_rest(int argc, char **argv) {
   struct option_list given = {0};
-  struct frames_options input = {.many = true};
+  struct frames_options input = {.many = true, .scene = true};
   bool mean = false;
   /* clang-format off */
   struct option_spec options[] = {

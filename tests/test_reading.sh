@@ -94,6 +94,8 @@ reads five-columns.txt '0 2' --columns -,x,y,z,d
 reads matlab.txt '0 2'
 reads slashes.txt '0 2'
 reads names-again.csv '0 2;0 1'
+reads runs.csv '0 1;1 2;0 1;1 1'
+refuses time-falls.csv '4: time 0 after 1: expected rows sorted by time'
 reads radius-fifth.xyz '0 9'
 says radius-fifth.xyz '3: the column behind z is taken as the radius'
 refuses charge-fifth.xyz '4: radius -1: expected'
@@ -173,6 +175,9 @@ printf '# format=bed-1\n# t=0\nx\ty\tz\tr\n0\t0\t0\t1\n# status=ok\n' \
   >"$T/none"
 "$B/analyze" contacts "$T/none" >"$T/out" 2>"$T/err"
 check 'our own without walls: as it says' test ! -s "$T/err"
+printf 'x,y,z,r\n0,0,0,1\n0,0,0,1\n' >"$T/same"
+"$B/analyze" contacts "$T/same" >"$T/out" 2>"$T/err"
+check 'an error is one line still' test $? = 3 -a "$(wc -l <"$T/err")" = 1
 
 # --- columns that the user names, in every format -----------------------------
 reads radius-fifth.xyz '0 1.125' --columns -,x,y,z,d

@@ -15,6 +15,7 @@ struct table_state {
   bool named;   /* it is known what the columns are, */
   bool bare;    /* though no names say so */
   bool fresh;   /* that was just read, and no row since */
+  bool anew;    /* names were read since the last frame */
   bool titled;  /* there was a line that is no comment before */
   bool keyed;   /* a comment says radius=, as a bed's header does */
   size_t unfit; /* number of a comment that names three other columns */
@@ -88,7 +89,7 @@ static void set_separator(struct bed_reader *r, char separator) {
   struct table_state *s = r->state;
   r->separator = separator;
   r->decimal_comma = takes_decimal_comma(separator);
-  s->named = s->fresh = true;
+  s->named = s->fresh = s->anew = true;
 }
 
 static int read_names(struct bed_reader *r) {
@@ -196,11 +197,13 @@ static int finish_frame(struct bed_reader *r, struct bed *b) {
   struct table_state *s = r->state;
   if (r->columns.has[COLUMN_T]) {
     const double t = r->rows[0][COLUMN_T];
-    if (r->frames && t < s->t)
+    if (r->frames && t < s->t && !s->anew)
       return reader_fail(r, "time %g after %g: expected rows sorted by time", t,
                          s->t);
+    r->part += r->frames && t < s->t; /* of another run */
     s->t = t;
   }
+  s->anew = false;
   return reader_frame(r, b, s->t);
 }
 
@@ -217,7 +220,10 @@ static bool begins_frame(struct bed_reader *r) {
 static int finish_file(struct bed_reader *r, struct bed *b) {
   const struct table_state *s = r->state;
   if (r->cut)
-    reader_note_cut(r, s->t, 0);
+    reader_note_cut(
+        r,
+        r->rows_count && r->columns.has[COLUMN_T] ? r->rows[0][COLUMN_T] : s->t,
+        0);
   if (r->rows_count)
     return finish_frame(r, b);
   if (!r->frames || (s->fresh && !r->options.allow_partial))
