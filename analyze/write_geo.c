@@ -54,7 +54,7 @@ static void check(struct shape *s) {
     frame_refuse(s->frames, s->source, why);
   }
   const size_t pairs = undecided(s);
-  if (pairs)
+  if (pairs && !s->solid.bridges)
     shape_add(s,
               "%zu pair%s of spheres touch to %g, which gmsh's kernel cannot "
               "tell from a gap: --gap or --bridge",
