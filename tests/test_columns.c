@@ -168,8 +168,9 @@ static void test_list(void) {
       fprintf(stderr, "  %s: %s\n", good[k][0], text);
   }
   static const char *const bad[] = {
-      "",        "x,y",    "x,y,z,q", "x,y,z,x", "x,y,z,",        "x y z",
-      "x,y,z,T", "x,,y,z", "r,d,id",  "x;y;z",   "x,y,z,r,radius"};
+      "",       "x,y",   "x,y,z,q",        "x,y,z,x",
+      "x,y,z,", "x y z", "x,y,z,T",        "x,,y,z",
+      "r,d,id", "x;y;z", "x,y,z,r,radius", "x [mm],y [mm],z [mm],r"};
   for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
     if (!CHECK(columns_of_list(&c, bad[k]) == GSL_EINVAL && *c.wrong))
       fprintf(stderr, "  %s\n", bad[k]);
@@ -203,6 +204,38 @@ static void test_units(void) {
   }
 }
 
+/* One unit of millimetres and none beside it: a factor of 1000, either way. */
+static void test_units_missing(void) {
+  static const struct {
+    const char *names, *row, *wrong[2]; /* NULL: none */
+  } tables[] = {{"x [mm]|y [mm]|z [mm]|r", NULL, {"'x [mm]'", "'r'"}},
+                {"x_cm|y_cm|z_cm|radius", NULL, {"'x_cm'", "'radius'"}},
+                {"x|y|z|d (um)", NULL, {"'d (um)'", "'x'"}},
+                {"x|y|z|r", "mm|mm|mm|-", {"'x'", "'r'"}},
+                {"x|y|z|r|vx (mm/s)|vy|vz", NULL, {"'vx (mm/s)'", "'vy'"}},
+                {"x [mm]|y [mm]|z [mm]|r [mm]", NULL, {NULL}},
+                {"x [m]|y [m]|z [m]|r", NULL, {NULL}},
+                {"x|y|z|r [m]", NULL, {NULL}},
+                {"x [m]|y [m]|z [m]|r [mm]|vx", NULL, {NULL}},
+                {"x [mm]|y [mm]|z [mm]|r", "-|-|-|mm", {NULL}},
+                {"x [mm]|y [mm]|z [mm]", NULL, {NULL}},
+                {"x|y|z|r|t [ms]|h [mm]", NULL, {NULL}}};
+  for (size_t k = 0; k < sizeof tables / sizeof *tables; k++) {
+    struct text name[MOST], row[MOST];
+    struct columns c;
+    CHECK(columns_of_names(&c, split(tables[k].names, name), name) ==
+          GSL_SUCCESS);
+    if (tables[k].row)
+      CHECK(columns_of_units(&c, split(tables[k].row, row), row));
+    const int status = columns_check_units(&c);
+    const char *const *wrong = tables[k].wrong;
+    if (!CHECK(wrong[0] ? status == GSL_EINVAL && strstr(c.wrong, wrong[0]) &&
+                              strstr(c.wrong, wrong[1])
+                        : status == GSL_SUCCESS))
+      fprintf(stderr, "  %s: '%s'\n", tables[k].names, c.wrong);
+  }
+}
+
 /* Names without end, and of any bytes, do no harm. */
 static void test_any_bytes(void) {
   char bytes[300];
@@ -223,6 +256,7 @@ int main(void) {
   test_ambiguous();
   test_list();
   test_units();
+  test_units_missing();
   test_any_bytes();
   return check_done();
 }

@@ -65,6 +65,19 @@ reads quoted-last.xyz '2 1'
 refuses hex.csv "2: column x is '0x10': expected a decimal number"
 refuses infinite.csv "2: column r is 'infinity'"
 
+refuses half-units.csv "2: column 'x .mm.' has a unit and column 'r' has none"
+reads half-units.csv '0 1' --columns 'x [mm],y [mm],z [mm],r [m]'
+refuses colours.dump "9: .*no radius: 'r' beside 'g' and 'b' is a colour"
+reads colours.dump '0 1' --radius 1
+refuses radial.dump "9: column 'r' .*'theta' is there.*expected"
+refuses colours.xyz "2: .*no radius: 'r' beside 'g' and 'b' is a colour"
+reads colours.xyz '0 1' --radius 1
+reads colours-and-radius.xyz '0 1'
+refuses two-behind.xyz '3: .*no radius: --columns says what is behind z'
+reads two-behind.xyz '0 1' --columns -,x,y,z,-,r
+reads radius-later.xyz '0 0;1 1'
+says radius-later.xyz '5: the column behind z is taken as the radius'
+
 # --- what is right though it looks odd ----------------------------------------
 reads quoted-semicolon.csv '0 1'
 reads name-with-comma.tsv '0 1'

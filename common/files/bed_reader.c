@@ -298,6 +298,13 @@ int reader_add_column(struct bed_reader *r, enum column c, struct text name) {
                                : reader_fail(r, "%s", r->columns.wrong);
 }
 
+int reader_settle_radius(struct bed_reader *r, size_t count,
+                         const struct text *names, enum column *what) {
+  const int status = columns_settle_radius(&r->columns, count, names, what);
+  return status == GSL_SUCCESS ? status
+                               : reader_fail(r, "%s", r->columns.wrong);
+}
+
 bool reader_takes_columns(struct bed_reader *r) {
   if (r->options.columns)
     r->columns = *r->options.columns;

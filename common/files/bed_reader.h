@@ -102,6 +102,9 @@ int reader_line_count(struct bed_reader *r, const char *what, size_t *count);
 void reader_clear_columns(struct bed_reader *r, char separator);
 /* As columns_add, with the error in r. */
 int reader_add_column(struct bed_reader *r, enum column c, struct text name);
+/* As columns_settle_radius, with the error in r. */
+int reader_settle_radius(struct bed_reader *r, size_t count,
+                         const struct text *names, enum column *what);
 /* The columns that the user said, if there are any. */
 bool reader_takes_columns(struct bed_reader *r);
 /* Is there what makes a sphere? */

@@ -321,6 +321,7 @@ struct meaning {
   double unit;
   enum column column;
   bool step; /* a time only where there is no better one */
+  bool said; /* the unit */
 };
 
 static enum column scalar_of(const struct words *w, bool *step) {
@@ -376,7 +377,8 @@ static struct meaning meaning_of(struct text name,
   }
   if (u && !is_unit_of(u, m.column))
     m.column = COLUMN_OTHER; /* of another kind: r (deg) */
-  m.unit = u && m.column != COLUMN_OTHER ? u->factor : 1;
+  m.said = u && u->dimension != PURE && m.column != COLUMN_OTHER;
+  m.unit = m.said ? u->factor : 1;
   return m;
 }
 
@@ -420,6 +422,7 @@ int columns_add(struct columns *c, enum column what, struct text name) {
   c->has[what] = true;
   snprintf(c->name[what], LONGEST_NAME, "%.*s", shown, name.at);
   c->unit[c->count] = 1;
+  c->said[c->count] = false;
   c->at[c->count++] = (unsigned char)what;
   return GSL_SUCCESS;
 }
@@ -452,12 +455,12 @@ static bool is_angle(struct text name) {
 }
 
 /* R beside G and B is a colour; r beside an angle may be a coordinate. */
-static int settle_radius(struct columns *c, size_t count,
-                         const struct text *name, struct meaning *m) {
+int columns_settle_radius(struct columns *c, size_t count,
+                          const struct text *name, enum column *what) {
   bool other = false; /* another column is a size */
   size_t angle = count;
   for (size_t k = 0; k < count; k++) {
-    other |= (m[k].column == COLUMN_R || m[k].column == COLUMN_D) &&
+    other |= (what[k] == COLUMN_R || what[k] == COLUMN_D) &&
              !is_letter_word(name[k], 'r') && !is_letter_word(name[k], 'R');
     if (is_angle(name[k]))
       angle = k;
@@ -467,12 +470,12 @@ static int settle_radius(struct columns *c, size_t count,
                  g = find_letter(count, name, upper ? 'G' : 'g'),
                  b = find_letter(count, name, upper ? 'B' : 'b');
     if (r < count && g < count && b < count) {
-      m[r].column = COLUMN_OTHER;
+      what[r] = COLUMN_OTHER;
       snprintf(c->dismissed, sizeof c->dismissed,
                "'%c' beside '%c' and '%c' is a colour; ", *trimmed(name[r]).at,
                *trimmed(name[g]).at, *trimmed(name[b]).at);
     } else if (r < count && angle < count) {
-      m[r].column = COLUMN_OTHER;
+      what[r] = COLUMN_OTHER;
       if (other)
         continue;
       snprintf(c->wrong, sizeof c->wrong,
@@ -514,8 +517,30 @@ static int settle_time(struct columns *c, size_t count, const struct text *name,
   return GSL_SUCCESS;
 }
 
+static void set_unit(struct columns *c, const struct meaning *m) {
+  c->unit[c->count - 1] = m->unit;
+  c->said[c->count - 1] = m->said;
+}
+
+int columns_check_units(struct columns *c) {
+  for (size_t k = 0; k < c->count; k++)
+    for (size_t l = 0; l < c->count; l++)
+      if (c->at[k] != COLUMN_OTHER && c->at[l] != COLUMN_OTHER &&
+          dimension_of((enum column)c->at[k]) ==
+              dimension_of((enum column)c->at[l]) &&
+          c->said[k] && c->unit[k] != 1 && !c->said[l]) {
+        snprintf(c->wrong, sizeof c->wrong,
+                 "column '%s' has a unit and column '%s' has none: expected "
+                 "one for each, in the names, in a row or by --columns",
+                 c->name[c->at[k]], c->name[c->at[l]]);
+        return GSL_EINVAL;
+      }
+  return GSL_SUCCESS;
+}
+
 int columns_of_names(struct columns *c, size_t count, const struct text *name) {
   struct meaning m[MOST_FIELDS];
+  enum column what[MOST_FIELDS];
   unsigned char digits[VECTORS];
   columns_clear(c);
   if (count > MOST_FIELDS) {
@@ -526,12 +551,14 @@ int columns_of_names(struct columns *c, size_t count, const struct text *name) {
   for (size_t k = 0; k < count; k++)
     m[k] = meaning_of(name[k], digits);
   int status = settle_time(c, count, name, m);
+  for (size_t k = 0; k < count; k++)
+    what[k] = m[k].column;
   if (status == GSL_SUCCESS)
-    status = settle_radius(c, count, name, m);
+    status = columns_settle_radius(c, count, name, what);
   for (size_t k = 0; k < count && status == GSL_SUCCESS; k++) {
-    status = columns_add(c, m[k].column, name[k]);
+    status = columns_add(c, what[k], name[k]);
     if (status == GSL_SUCCESS)
-      c->unit[k] = m[k].unit;
+      set_unit(c, &m[k]);
   }
   return status;
 }
@@ -558,8 +585,10 @@ void columns_skip_first(struct columns *c) {
   assert(c->count < MOST_FIELDS);
   memmove(c->at + 1, c->at, c->count * sizeof *c->at);
   memmove(c->unit + 1, c->unit, c->count * sizeof *c->unit);
+  memmove(c->said + 1, c->said, c->count * sizeof *c->said);
   c->at[0] = COLUMN_OTHER;
   c->unit[0] = 1;
+  c->said[0] = false;
   c->count++;
 }
 
@@ -588,18 +617,19 @@ int columns_of_list(struct columns *c, const char *list) {
     }
     status = columns_add(c, m.column, name);
     if (status == GSL_SUCCESS)
-      c->unit[c->count - 1] = m.unit;
+      set_unit(c, &m);
   }
   if (status == GSL_SUCCESS && !columns_place(c)) {
     snprintf(c->wrong, sizeof c->wrong, "expected x, y and z among them");
     status = GSL_EINVAL;
   }
-  return status;
+  return status == GSL_SUCCESS ? columns_check_units(c) : status;
 }
 
 bool columns_of_units(struct columns *c, size_t count,
                       const struct text *fields) {
   double unit[MOST_FIELDS];
+  bool said[MOST_FIELDS];
   bool any = false;
   for (size_t k = 0; k < c->count; k++) {
     struct text t = k < count ? trimmed(fields[k]) : (struct text){"", 0};
@@ -607,16 +637,20 @@ bool columns_of_units(struct columns *c, size_t count,
       t = (struct text){t.at + 1, t.length - 2};
     const struct unit *u = find_unit(t);
     unit[k] = c->unit[k];
+    said[k] = c->said[k];
     if (c->at[k] == COLUMN_OTHER)
       continue;
     if (!u || !is_unit_of(u, c->at[k]))
       return false;
     any |= u->dimension != PURE; /* a row of ones has none */
-    if (u->dimension != PURE)
-      unit[k] = u->factor;
+    if (u->dimension == PURE)
+      continue;
+    unit[k] = u->factor;
+    said[k] = true;
   }
   if (!any)
     return false;
   memcpy(c->unit, unit, c->count * sizeof *unit);
+  memcpy(c->said, said, c->count * sizeof *said);
   return true;
 }

@@ -43,6 +43,7 @@ struct columns {
   size_t count;
   unsigned char at[MOST_FIELDS]; /* enum column, as they stand in a row */
   double unit[MOST_FIELDS];      /* a field times this is in SI */
+  bool said[MOST_FIELDS];        /* its unit, by the table */
   bool has[COLUMNS];
   char name[COLUMNS][LONGEST_NAME]; /* what those it has are called */
   char dismissed[96]; /* why a column that has the name of a radius is none */
@@ -66,6 +67,16 @@ bool columns_named_any(size_t count, const struct text *names);
 /* From the user's list: names separated by commas, "-" for a column that is to
    be skipped. GSL_EINVAL as above. */
 int columns_of_list(struct columns *c, const char *list);
+
+/* GSL_EINVAL, with c->wrong, if one length, or one speed, has a unit other than
+   SI's and another one has none: r beside "x [mm]". */
+int columns_check_units(struct columns *c);
+
+/* Where a format names its columns itself: takes the radius from one that is
+   just r, if by its neighbours it is a colour or a coordinate. what: those of
+   names, changed. GSL_EINVAL as above. */
+int columns_settle_radius(struct columns *c, size_t count,
+                          const struct text *names, enum column *what);
 
 /* Takes the units of a row of units. False, and all as it was, if it is none:
    each field of a column of ours is a unit, or says that there is none. */

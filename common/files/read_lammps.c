@@ -118,6 +118,7 @@ static bool has_places(size_t count, const struct text *names,
 static int read_names(struct bed_reader *r, struct dump *d, const char *line) {
   static const char *const endings[] = {"", "u", "s", "su"};
   struct text names[MOST_FIELDS + 1];
+  enum column what[MOST_FIELDS + 1];
   reader_clear_columns(r, BLANKS);
   d->scaled = false;
   if (reader_takes_columns(r))
@@ -134,12 +135,17 @@ static int read_names(struct bed_reader *r, struct dump *d, const char *line) {
     return reader_fail(r, "scaled coordinates without ITEM: BOX BOUNDS");
   for (size_t k = 0; k < count; k++) {
     const int axis = place_of(names[k], endings[e]);
-    enum column c = column_named(names[k]);
+    what[k] = column_named(names[k]);
     if (axis >= 0)
-      c = (enum column)(COLUMN_X + axis);
-    else if (c == COLUMN_T || (c >= COLUMN_X && c <= COLUMN_Z))
-      c = COLUMN_OTHER;
-    const int status = reader_add_column(r, c, names[k]);
+      what[k] = (enum column)(COLUMN_X + axis);
+    else if (what[k] == COLUMN_T ||
+             (what[k] >= COLUMN_X && what[k] <= COLUMN_Z))
+      what[k] = COLUMN_OTHER;
+  }
+  if (reader_settle_radius(r, count, names, what) != GSL_SUCCESS)
+    return GSL_EINVAL;
+  for (size_t k = 0; k < count; k++) {
+    const int status = reader_add_column(r, what[k], names[k]);
     if (status != GSL_SUCCESS)
       return status;
   }

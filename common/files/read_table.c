@@ -182,6 +182,8 @@ static int read_fresh(struct bed_reader *r) {
   if (columns_of_units(c, count, fields))
     return GSL_SUCCESS;
   s->fresh = false;
+  if (columns_check_units(c) != GSL_SUCCESS)
+    return reader_fail(r, "%s", c->wrong);
   const bool quoted = fields[0].at > r->line && fields[0].at[-1] == '"';
   if (count == c->count + 1 && count <= MOST_FIELDS &&
       (quoted || !reader_number(r, fields[0], &x)))

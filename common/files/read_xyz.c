@@ -6,6 +6,7 @@
    out, and many put the radius behind z. */
 #include "files/readers.h"
 
+#include <stdio.h>
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include "files/numbers.h"
@@ -31,6 +32,7 @@ static const struct {
 struct xyz_state {
   bool plain; /* no Properties; then also: */
   bool named; /* a row begins with a name */
+  bool noted; /* that a radius is guessed */
 };
 
 static bool is_count(const char *line) {
@@ -127,28 +129,46 @@ static int add(struct bed_reader *r, enum column c) {
   return reader_add_column(r, c, (struct text){name, strlen(name)});
 }
 
+/* The columns of one property: name:type:count. */
+static int read_property(struct bed_reader *r, const char **at, const char *end,
+                         size_t *columns, struct text *names,
+                         enum column *what) {
+  const char *const begin = *at;
+  const struct text name = part(at, end), type = part(at, end),
+                    digits = part(at, end);
+  double count;
+  if (!name.length || type.length != 1 || !strchr("RISLrisl", *type.at) ||
+      !reader_number(r, digits, &count) || !(count >= 1) ||
+      !(count <= MOST_FIELDS) || count != (double)(size_t)count)
+    return reader_fail(r, "Properties: expected name:type:count at '%.*s'",
+                       end - begin > 40 ? 40 : (int)(end - begin), begin);
+  if (*columns + (size_t)count > MOST_FIELDS)
+    return reader_fail(r, "Properties: more than %d columns", MOST_FIELDS);
+  const enum column first = property(name, (size_t)count);
+  for (size_t k = 0; k < (size_t)count; k++) {
+    const enum column c =
+        first == COLUMN_OTHER ? first : (enum column)(first + k);
+    what[*columns] = c;
+    names[(*columns)++] =
+        count == 1 ? name
+                   : (struct text){column_name(c), strlen(column_name(c))};
+  }
+  return GSL_SUCCESS;
+}
+
 static int read_properties(struct bed_reader *r, struct text list) {
   const char *at = list.at, *const end = at + list.length;
-  while (at < end) {
-    const struct text name = part(&at, end), type = part(&at, end),
-                      digits = part(&at, end);
-    double count;
-    if (!name.length || type.length != 1 || !strchr("RISLrisl", *type.at) ||
-        !reader_number(r, digits, &count) || !(count >= 1) ||
-        !(count <= MOST_FIELDS) || count != (double)(size_t)count)
-      return reader_fail(r, "Properties: expected name:type:count at '%.*s'",
-                         end - name.at > 40 ? 40 : (int)(end - name.at),
-                         name.at);
-    const enum column first = property(name, (size_t)count);
-    for (size_t k = 0; k < (size_t)count; k++) {
-      const enum column c =
-          first == COLUMN_OTHER ? first : (enum column)(first + k);
-      const int status = count == 1 ? reader_add_column(r, c, name) : add(r, c);
-      if (status != GSL_SUCCESS)
-        return status;
-    }
-  }
-  return reader_check_columns(r);
+  struct text names[MOST_FIELDS] = {{NULL, 0}};
+  enum column what[MOST_FIELDS] = {COLUMN_OTHER};
+  size_t count = 0;
+  int status = GSL_SUCCESS;
+  while (at < end && status == GSL_SUCCESS)
+    status = read_property(r, &at, end, &count, names, what);
+  if (status == GSL_SUCCESS)
+    status = reader_settle_radius(r, count, names, what);
+  for (size_t k = 0; k < count && status == GSL_SUCCESS; k++)
+    status = reader_add_column(r, what[k], names[k]);
+  return status == GSL_SUCCESS ? reader_check_columns(r) : status;
 }
 
 static int read_comment(struct bed_reader *r, double *t) {
@@ -200,8 +220,12 @@ static int set_columns(struct bed_reader *r) {
       reader_number(r, fields[place], &radius) && radius > 0) {
     add(r, COLUMN_R);
     r->more_fields = false;
-    if (!r->frames)
+    if (!s->noted)
       reader_note(r, "the column behind z is taken as the radius");
+    s->noted = true;
+  } else if (count > place) {
+    snprintf(r->columns.dismissed, sizeof r->columns.dismissed,
+             "--columns says what is behind z; ");
   }
   return reader_check_columns(r);
 }
