@@ -38,22 +38,11 @@ void frame_check_box(const struct frames *f, const struct bed *b,
     frame_refuse(f, b, "a box too small beside a sphere for its volume");
 }
 
-/* Of equal spheres theirs, without a rounding. */
-static double mean_radius(const struct bed *b) {
-  double more = 0;
-  for (size_t i = 0; i < b->n; i++)
-    more += b->r[i] - b->r[0];
-  return b->r[0] + more / (double)b->n;
-}
-
 struct scene frame_scene(const struct frames *f, const struct bed *b) {
   struct scene s;
-  const char *wrong = scene_from_header(&s, frames_header(f));
+  const char *wrong = scene_from_header(&s, frames_header(f), b);
   if (wrong)
     frame_refuse(f, b, wrong);
-  /* else all of a bed of millimetres is within the reach of each sphere */
-  if (!bed_header_get(frames_header(f), "lmax") && b->n)
-    s.law.lmax = mean_radius(b);
   return s;
 }
 

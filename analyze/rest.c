@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
+#include <gsl/gsl_statistics.h>
 #include "geometry/box.h"
 #include "dynamics/dynamics.h"
 #include "measure.h"
@@ -120,7 +121,10 @@ int verb_rest(int argc, char **argv) {
     const struct energies e = energies(&frames, &scene, &bed);
     const double net = unbalanced(&frames, &scene, &bed);
     if (frames.first) {
-      watch = rest_watch_begin(bed.t);
+      const struct similarity spheres = similarity_of(
+          gsl_stats_mean(bed.r, 1, bed.n), gsl_stats_mean(bed.m, 1, bed.n),
+          vec3_norm(scene.gravity));
+      watch = rest_watch_begin(bed.t, &spheres);
       last_t = last_union = GSL_NAN;
     }
     const bool at_rest =

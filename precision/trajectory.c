@@ -30,6 +30,7 @@ static int start(const struct precision_case *c, struct scene *s,
                  struct bed *b) {
   const double side = c->count > 8 ? 1 : 0.5;
   const struct fill fill = {.count = c->count,
+                            .mass = 1,
                             .radius = 0.1,
                             .base = {side, side},
                             .drop = 1.1,

@@ -165,7 +165,7 @@ int run(const struct settings *s, struct bed *b,
   struct run r = {
       .set = s, .header = header, .bed = b, .start = b->t, .mark = "ok"};
   const struct run_clock begun = run_clock_now();
-  r.rest = rest_watch_begin(b->t);
+  r.rest = rest_watch_begin(b->t, &s->similarity);
   int status = motion_alloc(
       &r.motion, &s->scene, b, &s->integrate,
       &(struct dynamics_options){.all_pairs = !strcmp(s->pairs, "all"),

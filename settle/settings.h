@@ -14,6 +14,8 @@ struct settings {
   struct scene scene;
   struct scene_words words;
   struct integrate_options integrate;
+  double density;               /* kg/m^3, 0: by fill.mass */
+  struct similarity similarity; /* of the spheres to the paper's */
   double travel, time;
   const char *pairs, *scene_file, *stats, *log;
   size_t frames, threads;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <gsl/gsl_errno.h>
+#include <gsl/gsl_math.h>
 #include <gsl/gsl_statistics.h>
 #include "program/files.h"
 #include "model/bed_check.h"
@@ -109,6 +110,17 @@ static void check_radius(const struct settings *s,
           s->fill.radius, b->id[i], name, b->r[i]);
 }
 
+/* The same of masses, by --mass or --density. */
+static void check_masses(const struct settings *s, struct option_spec *options,
+                         const struct bed *b, const char *name) {
+  if (option_find(options, "density")->given)
+    die(EXIT_USAGE, "--density: expected --mass beside --scene");
+  for (size_t i = 0; option_find(options, "mass")->given && i < b->n; i++)
+    if (b->m[i] != s->fill.mass)
+      die(EXIT_USAGE, "--mass %g: sphere %ld of %s has a mass of %g kg",
+          s->fill.mass, b->id[i], name, b->m[i]);
+}
+
 static void check_walls(const struct scene *scene, const struct bed *b,
                         const char *name) {
   const struct bed_outsiders o = bed_find_outsiders(scene, b);
@@ -132,11 +144,30 @@ static void check_overlaps(const struct bed *b, const char *name) {
         name, b->id[c.i], b->id[c.j], c.distance, c.expected);
 }
 
-/* The spheres' radius, the mean where they differ. */
-static double radius_of(const struct bed *b) {
-  const double least = gsl_stats_min(b->r, 1, b->n);
-  return gsl_stats_max(b->r, 1, b->n) > least ? gsl_stats_mean(b->r, 1, b->n)
-                                              : least;
+/* The mean, and the number itself where all are equal. */
+static double mean_of(const double x[], size_t n) {
+  const double least = gsl_stats_min(x, 1, n);
+  return gsl_stats_max(x, 1, n) > least ? gsl_stats_mean(x, 1, n) : least;
+}
+
+/* The mass by --density. */
+static void take_density(struct settings *s, struct option_spec *options) {
+  if (!(s->density > 0))
+    return;
+  if (option_find(options, "mass")->given)
+    die(EXIT_USAGE, "--density: expected no --mass beside it");
+  s->fill.mass = s->density * 4 / 3 * M_PI * gsl_pow_3(s->fill.radius);
+}
+
+/* A tolerance that neither options nor a scene had is by similarity too. */
+static void take_defaults(struct settings *s) {
+  const bool open = s->integrate.tol == 0;
+  integrate_defaults(&s->integrate);
+  if (open)
+    s->integrate.tol *= similarity_scale(
+        &s->similarity, integrate_control(s->integrate.control)->per_time
+                            ? (struct dimension){1, -2, 0}
+                            : (struct dimension){1, -1, 0});
 }
 
 /* The parameters as they now stand, then the keys of a file that we do not
@@ -145,7 +176,8 @@ static void write_header(struct settings *s, const struct option_spec *options,
                          const struct bed *b, struct bed_header *h) {
   char text[256];
   s->fill.count = b->n;
-  s->fill.radius = radius_of(b);
+  s->fill.radius = mean_of(b->r, b->n);
+  s->fill.mass = mean_of(b->m, b->n);
   bed_header_remove(h, "wall");
   bed_header_remove(h, "status");
   check_memory(bed_header_set(h, "format", "bed-1"));
@@ -182,13 +214,20 @@ void start_make(struct settings *s, struct option_spec *options, struct bed *b,
     refuse_options_of_start(options);
     read_scene(s, radius->given ? s->fill.radius : 0, b, header, &name);
     check_radius(s, radius, b, name);
+    check_masses(s, options, b, name);
+    s->similarity = header_similarity(header, options, &s->words,
+                                      mean_of(b->r, b->n), mean_of(b->m, b->n));
     const bool other_method = option_find(options, "method")->given;
     const char *bad =
         header_options(header, options, other_method ? is_step_control : NULL);
     if (bad)
       die(EXIT_INPUT, "%s: %s", name, bad);
+  } else {
+    take_density(s, options);
+    s->similarity = header_similarity(header, options, &s->words,
+                                      s->fill.radius, s->fill.mass);
   }
-  integrate_defaults(&s->integrate);
+  take_defaults(s);
   const char *wrong = scene_finish(&s->scene, &s->words);
   /* options are checked one by one, but for the numbers of gravity */
   if (wrong && s->scene_file && !option_find(options, "gravity")->given)

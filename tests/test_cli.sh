@@ -563,7 +563,7 @@ done
 
 # --- headers ------------------------------------------------------------------
 mine='# author=A. Author\n# restitution=0.9\n# friction=0.7\n# kappa=90\n'
-mine+='# model=friction\n# gravity=1,2,-3\n# tol=1e-4\n# note=a=b\n'
+mine+='# model=friction\n# gravity=1,2,-3\n# tol=1e-4\n# lmax=0.1\n# note=a=b\n'
 dropped='-3\t0.1\t0.2\t0.15\t0.1\n17\t0.4\t0.1\t0.12\t0.05\n'
 bed "$T/mine" "$mine$floor" "$dropped" "$ok"
 bed "$T/bare" "$floor" "$dropped" "$ok"
@@ -579,7 +579,7 @@ done
 check 'one status' test "$(key status "$T/a")" = ok
 check 'one time' is_close "$(key t "$T/a")" 0.3 0
 options=(--restitution 0.9 --friction 0.7 --kappa 90 --model friction
-  --gravity 1,2,-3 --tol 1e-4)
+  --gravity 1,2,-3 --tol 1e-4 --lmax 0.1)
 "$B/settle" --scene "$T/bare" --time 0.3 "${options[@]}" >"$T/b"
 check "a header's parameters are used" cmp -s <(rows "$T/a") <(rows "$T/b")
 "$B/settle" --scene "$T/bare" --time 0.3 >"$T/b"

@@ -390,7 +390,7 @@ static void test_settled(void) {
 static void test_header(void) {
   struct scene s;
   struct bed_header h = {0};
-  CHECK(scene_from_header(&s, NULL) == NULL);
+  CHECK(scene_from_header(&s, NULL, NULL) == NULL);
   CHECK(s.walls_count == 0 && s.gravity[2] == -9.81 && s.law.kappa == 150 &&
         s.model == SCENE_ROTATION);
   scene_free(&s);
@@ -400,7 +400,7 @@ static void test_header(void) {
       {"wall", "1 0 0 1 0 0"}};
   for (size_t k = 0; k < sizeof keys / sizeof *keys; k++)
     CHECK(bed_header_add(&h, keys[k][0], keys[k][1]) == GSL_SUCCESS);
-  CHECK(scene_from_header(&s, &h) == NULL);
+  CHECK(scene_from_header(&s, &h, NULL) == NULL);
   CHECK(s.model == SCENE_BASIC && s.law.kappa == 33.5 && s.law.f0 == 10);
   CHECK(s.gravity[0] == 1 && s.gravity[1] == 2 && s.gravity[2] == 3);
   CHECK(s.walls_count == 2 && s.walls[0].normal[2] == -1 &&
@@ -415,7 +415,7 @@ static void test_header(void) {
   for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
     struct bed_header wrong = {0};
     CHECK(bed_header_add(&wrong, bad[k][0], bad[k][1]) == GSL_SUCCESS);
-    const char *what = scene_from_header(&s, &wrong);
+    const char *what = scene_from_header(&s, &wrong, NULL);
     CHECK(what && strstr(what, bad[k][2]) && strstr(what, "expected"));
     scene_free(&s);
     bed_header_free(&wrong);

@@ -213,10 +213,11 @@ failed_by() { # PATTERN: a failed mark with it, and no warning but what is said
 }
 
 # spheres of 1 and 0.5 mm with forces for 100 mm: nothing holds them
-run settle --radius 5e-4 --time 0.5
+paper=(--kappa 150 --f0 10 --psi 10 --vmin 0.01 --lmax 0.1 --tol 5e-4 --hinit 0.1)
+run settle --radius 5e-4 --mass 1 --base 1,1 --drop 1.1 "${paper[@]}" --time 0.5
 failed_by '1[0-9]+ of 200 centres are outside of walls, that of sphere [0-9]+ .* m outside wall 1'
 run settle --radius 1e-3 --base 0.01,0.01 --drop 0.011 --model basic --count 4 \
-  --time 0.2
+  "${paper[@]}" --time 0.2
 failed_by '4 of 4 centres are outside of walls'
 # at a frame, if it comes back until the end
 soft=(--count 1 --kappa 30 --lmax 0.3 --drop 3 --time 0.9)

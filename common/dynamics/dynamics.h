@@ -67,8 +67,9 @@ int dynamics_jacobian(double t, const double y[], double *dfdy, double dfdt[],
 double dynamics_step_limit(const struct dynamics *d, const double y[],
                            const double dydt[], double travel);
 
-/* What errors of the unknowns are measured in: gaps in 1/kappa, velocities in
-   m/s, spins in m/s of the surface. dimension doubles. */
+/* What errors of the unknowns are measured in, per m/s of tolerance: gaps in
+   1/kappa for the speed that similar spheres have where the paper's have 1 m/s,
+   velocities in m/s, spins in m/s of the surface. dimension doubles. */
 void dynamics_scale(const struct dynamics *d, double scale[]);
 
 /* Kinetic energy with that of spin, and potential energy of gravity (from the

@@ -31,6 +31,7 @@ int fill_grid(const struct fill *f, struct bed *b) {
     for (int k = 0; k < 3; k++)
       x[k] += f->jitter * f->radius * gsl_rng_uniform(rng);
     b->r[i] = f->radius;
+    b->m[i] = f->mass;
   }
   gsl_rng_free(rng);
   return GSL_SUCCESS;

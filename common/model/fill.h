@@ -9,6 +9,7 @@
 struct fill {
   size_t count;
   double radius;  /* m */
+  double mass;    /* kg */
   double base[2]; /* of the box (m) */
   double drop;    /* height of the first layer's lower edge (m) */
   double jitter;  /* largest displacement, in radii */

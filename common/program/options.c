@@ -132,6 +132,19 @@ const char *option_set(struct option_spec *o, const char *text) {
   return "a known type of option";
 }
 
+void options_scale(struct option_spec *options, const struct similarity *s) {
+  for (struct option_spec *o = options; o->name; o++) {
+    if (o->given)
+      continue;
+    const double factor = similarity_scale(s, o->dimension);
+    if (o->type == OPTION_DOUBLE)
+      *(double *)o->value *= factor;
+    if (o->type == OPTION_LIST && o->value)
+      for (size_t k = 0; k < ((struct option_list *)o->value)->count; k++)
+        ((struct option_list *)o->value)->at[k] *= factor;
+  }
+}
+
 struct option_spec *option_find(struct option_spec *options, const char *name) {
   for (struct option_spec *o = options; o->name; o++)
     if (!strcmp(o->name, name))

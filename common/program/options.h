@@ -7,6 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include "files/numbers.h"
+#include "model/similarity.h"
 
 enum option_type {
   OPTION_FLAG,   /* bool */
@@ -35,6 +36,8 @@ struct option_spec {
   void (*unset)(char *text, size_t size);
   bool parameter; /* of the scene: stands in a bed's header */
   bool given;     /* set from the command line */
+  /* Of a default that belongs to the paper's sphere: options_scale. */
+  struct dimension dimension;
   /* For a repeatable option: called with every value instead of storing it. */
   int (*each)(const struct option_list *value, void *context);
   void *context;
@@ -59,6 +62,10 @@ struct option_spec *option_find(struct option_spec *options, const char *name);
    none. */
 const char *option_choice(const struct option_spec *o, size_t k);
 const char *option_choice_help(const struct option_spec *o, size_t k);
+
+/* Gives defaults with a dimension, of options that were not given, the value
+   that they have for other spheres than the paper's. */
+void options_scale(struct option_spec *options, const struct similarity *s);
 
 /* The value as text, as option_set reads it; numbers by number_format. */
 void option_text(const struct option_spec *o, char *text, size_t size);

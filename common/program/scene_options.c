@@ -2,7 +2,10 @@
 #include "program/scene_options.h"
 
 #include <stdio.h>
+#include <string.h>
 #include <gsl/gsl_errno.h>
+#include <gsl/gsl_math.h>
+#include <gsl/gsl_statistics.h>
 #include "program/shared_options.h"
 
 struct scene_words scene_words_default(void) {
@@ -45,10 +48,31 @@ const char *header_options(const struct bed_header *h,
   return NULL;
 }
 
-const char *scene_from_header(struct scene *s, const struct bed_header *h) {
+static bool is_no_gravity(const struct option_spec *o) {
+  return strcmp(o->name, "gravity") != 0;
+}
+
+struct similarity header_similarity(const struct bed_header *h,
+                                    struct option_spec *options,
+                                    const struct scene_words *w, double radius,
+                                    double mass) {
+  header_options(h, options, is_no_gravity);
+  const double *g = w->gravity.at;
+  const double strength =
+      w->gravity.count == 1 ? fabs(g[0]) : gsl_hypot3(g[0], g[1], g[2]);
+  const struct similarity s = similarity_of(radius, mass, strength);
+  options_scale(options, &s);
+  return s;
+}
+
+const char *scene_from_header(struct scene *s, const struct bed_header *h,
+                              const struct bed *b) {
   *s = scene_default();
   struct scene_words words = scene_words_default();
   struct option_spec options[] = {SCENE_OPTIONS(*s, words), {0}};
+  if (h && b && b->n)
+    header_similarity(h, options, &words, gsl_stats_mean(b->r, 1, b->n),
+                      gsl_stats_mean(b->m, 1, b->n));
   const char *wrong = h ? header_options(h, options, NULL) : NULL;
   return wrong ? wrong : scene_finish(s, &words);
 }

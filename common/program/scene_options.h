@@ -33,9 +33,19 @@ const char *header_options(const struct bed_header *h,
                            struct option_spec *options,
                            bool (*skip)(const struct option_spec *));
 
-/* The scene of a bed: its header's keys over the defaults of
-   scene_default(), so no key is no wall. h may be NULL. The scene is to be
+/* Gives options' defaults what they are for spheres of that radius (m) and mass
+   (kg) under the gravity of w, after the header's key for it, and returns their
+   similarity. Errors are left to header_options, which comes next. */
+struct similarity header_similarity(const struct bed_header *h,
+                                    struct option_spec *options,
+                                    const struct scene_words *w, double radius,
+                                    double mass);
+
+/* The scene of a bed: its header's keys over the defaults of scene_default()
+   for such spheres, so no key is no wall. h and b may be NULL; without a sphere
+   the defaults are for the paper's. The scene is to be
    freed, also after an error. Returns NULL or what is wrong, as above. */
-const char *scene_from_header(struct scene *s, const struct bed_header *h);
+const char *scene_from_header(struct scene *s, const struct bed_header *h,
+                              const struct bed *b);
 
 #endif

@@ -15,6 +15,12 @@
    .most = most_, .unit = unit_, .help = help_, .parameter = true}
 #define POSITIVE(name_, value_, unit_, help_)                                  \
   NUMBER(name_, value_, DBL_MIN, OPTION_MANY, unit_, help_)
+/* The same with a dimension {length, time, mass}: the default is the paper's
+   sphere's, and settle's follows its own spheres. */
+#define SIMILAR(name_, value_, least_, unit_, help_, length_, time_, mass_)    \
+  {.name = name_, .type = OPTION_DOUBLE, .value = value_, .least = least_,     \
+   .most = OPTION_MANY, .unit = unit_, .help = help_, .parameter = true,       \
+   .dimension = {length_, time_, mass_}}
 
 /* Integration, into a struct integrate_options o and the travel limit. */
 #define INTEGRATION_OPTIONS(o, travel)                                         \
@@ -30,7 +36,7 @@
          "absolute tolerance but for paper control"),                          \
   NUMBER("reltol", &(o).reltol, 0, OPTION_MANY, "",                            \
          "relative tolerance but for paper control"),                          \
-  POSITIVE("hinit", &(o).hinit, "s", "first trial step"),                      \
+  SIMILAR("hinit", &(o).hinit, DBL_MIN, "s", "first trial step", 0, 1, 0),     \
   NUMBER("hmax", &(o).hmax, 0, OPTION_MANY, "s; 0: none", "longest step"),     \
   NUMBER("step", &(o).step, 0, OPTION_MANY, "s; 0: adaptive", "fixed step"),   \
   NUMBER("travel", &(travel), 0, OPTION_MANY, "in 1/kappa; 0: no limit",       \
@@ -53,9 +59,10 @@
 #define LAW_OPTIONS(c)                                                         \
   NUMBER("restitution", &(c).restitution, 0, 1, "",                            \
          "coefficient of restitution e"),                                      \
-  POSITIVE("f0", &(c).f0, "N", "repulsion at touch F0"),                       \
-  POSITIVE("kappa", &(c).kappa, "1/m", "stiffness exponent"),                  \
-  POSITIVE("psi", &(c).psi, "s/m", "dissipation focusing")
+  SIMILAR("f0", &(c).f0, DBL_MIN, "N", "repulsion at touch F0", 1, -2, 1),     \
+  SIMILAR("kappa", &(c).kappa, DBL_MIN, "1/m", "stiffness exponent", -1, 0,    \
+          0),                                                                  \
+  SIMILAR("psi", &(c).psi, DBL_MIN, "s/m", "dissipation focusing", -1, 1, 0)
 
 /* A scene, into a struct scene s and a struct scene_words w; scene_finish
    completes it. */
@@ -65,9 +72,10 @@
   LAW_OPTIONS((s).law),                                                        \
   NUMBER("friction", &(s).law.friction, 0, OPTION_MANY, "",                    \
          "friction coefficient phi"),                                          \
-  POSITIVE("vmin", &(s).law.vmin, "m/s", "slip speed of full friction"),       \
-  POSITIVE("lmax", &(s).law.lmax, "m",                                         \
-           "gap beyond which contacts are skipped"),                           \
+  SIMILAR("vmin", &(s).law.vmin, DBL_MIN, "m/s",                               \
+          "slip speed of full friction", 1, -1, 0),                            \
+  SIMILAR("lmax", &(s).law.lmax, DBL_MIN, "m",                                 \
+          "gap beyond which contacts are skipped", 1, 0, 0),                   \
   {.name = "gravity", .type = OPTION_LIST, .value = &(w).gravity,              \
    .least = 1, .most = 3, .unit = "m/s^2, downwards, or gx,gy,gz",             \
    .help = "gravity", .parameter = true},                                      \

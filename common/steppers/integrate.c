@@ -65,7 +65,7 @@ const struct integrate_control integrate_controls[] = {
     {0}};
 
 static void prepare_rkc(gsl_odeiv2_step *s, const struct integrate_problem *p) {
-  rkc_set_system(s, p->stage, p->threads);
+  rkc_set_system(s, p->stage, p->threads, p->scale);
 }
 
 static void prepare_verlet(gsl_odeiv2_step *s,

@@ -39,11 +39,12 @@ struct state {
   double last_start;  /* of the last attempt, to know a second one by */
   struct rkc_report report;
   size_t dim;
-  double work[]; /* direction, y at the start, two stages, slopes: 6 dim */
+  double work[]; /* direction, y at the start, two stages, slopes, 6 dim; and
+                    the unknowns by their units, dim */
 };
 
 static void *alloc(size_t dim) {
-  struct state *s = calloc(1, sizeof *s + 6 * dim * sizeof(double));
+  struct state *s = calloc(1, sizeof *s + 7 * dim * sizeof(double));
   if (!s || chebyshev_alloc(&s->chebyshev) != GSL_SUCCESS) {
     free(s);
     return NULL;
@@ -52,6 +53,8 @@ static void *alloc(size_t dim) {
   s->threads = 1;
   s->least_reach = chebyshev_reach(2);
   s->last_start = GSL_NAN;
+  for (size_t i = 0; i < dim; i++)
+    s->work[6 * dim + i] = 1;
   return s;
 }
 
@@ -88,12 +91,25 @@ static void euler(size_t dim, double h, const double *restrict y,
 }
 
 MULTIVERSION
-static double norm(size_t dim, const double *x) {
+static double length_of(size_t dim, const double *restrict x,
+                        const double *restrict weight) {
   double sum = 0;
 #pragma omp simd reduction(+ : sum)
   for (size_t i = 0; i < dim; i++)
-    sum += x[i] * x[i];
+    sum += weight[i] * x[i] * (weight[i] * x[i]);
   return sqrt(sum);
+}
+
+/* Of a vector of unknowns or rates, each in its unit. */
+static double norm(const struct state *s, const double *x) {
+  return length_of(s->dim, x, s->work + 6 * s->dim);
+}
+
+/* A direction along all unknowns. */
+static void any_direction(struct state *s) {
+  const double *weight = s->work + 6 * s->dim;
+  for (size_t i = 0; i < s->dim; i++)
+    s->work[i] = (i % 2 ? 1 : -1) / weight[i];
 }
 
 /* One iteration: direction <- (f(y + small direction) - f(y)) / small; its
@@ -103,8 +119,8 @@ static int power_iterate(struct state *s, double t, const double *y,
                          double *radius) {
   const size_t dim = s->dim;
   double *direction = s->work, *trial = direction + dim, *slope = trial + dim;
-  const double length = norm(dim, direction);
-  const double small = sqrt(GSL_DBL_EPSILON) * GSL_MAX(norm(dim, y), 1e-3);
+  const double length = norm(s, direction);
+  const double small = sqrt(GSL_DBL_EPSILON) * GSL_MAX(norm(s, y), 1e-3);
   euler(dim, small / length, y, direction, trial);
   const int status = GSL_ODEIV_FN_EVAL(sys, t, trial, slope);
   s->report.power_evaluations++;
@@ -112,10 +128,9 @@ static int power_iterate(struct state *s, double t, const double *y,
     return status;
   for (size_t i = 0; i < dim; i++)
     direction[i] = slope[i] - f[i];
-  *radius = norm(dim, direction) / small;
+  *radius = norm(s, direction) / small;
   if (!(*radius > 0)) /* f does not change along it: try another */
-    for (size_t i = 0; i < dim; i++)
-      direction[i] = i % 2 ? 1 : -1;
+    any_direction(s);
   return GSL_SUCCESS;
 }
 
@@ -142,9 +157,8 @@ static int estimate_radius(struct state *s, double t, double h, const double *y,
   if (!s->known) {
     most = FIRST_ITERATIONS;
     memcpy(s->work, f, s->dim * sizeof *f);
-    if (!(norm(s->dim, f) > 0))
-      for (size_t i = 0; i < s->dim; i++)
-        s->work[i] = i % 2 ? 1 : -1;
+    if (!(norm(s, f) > 0))
+      any_direction(s);
     s->length = 0;
   }
   double length[3] = {s->length}, radius = 0;
@@ -261,8 +275,11 @@ struct rkc_report rkc_report(const gsl_odeiv2_step *s) {
   return ((const struct state *)s->state)->report;
 }
 
-void rkc_set_system(gsl_odeiv2_step *s, stage_function *stage, int threads) {
+void rkc_set_system(gsl_odeiv2_step *s, stage_function *stage, int threads,
+                    const double *scale) {
   struct state *state = s->state;
   state->stage = stage;
   state->threads = GSL_MAX(threads, 1);
+  for (size_t i = 0; i < state->dim; i++)
+    state->work[6 * state->dim + i] = scale ? 1 / scale[i] : 1;
 }

@@ -29,8 +29,11 @@ struct rkc_report rkc_report(const gsl_odeiv2_step *s);
 
 /* A system's own stage function, which a step then calls instead of the
    right-hand side followed by a sum over vectors, or NULL, the default; the two
-   differ by rounding. And the threads that share the vectors of a large
-   system; 1, the default, for less than that. */
-void rkc_set_system(gsl_odeiv2_step *s, stage_function *stage, int threads);
+   differ by rounding. The threads that share the vectors of a large system; 1,
+   the default, for less than that. And the unit of each unknown, dimension
+   numbers that are copied, or NULL, the default, for 1: vectors of unknowns of
+   several kinds have lengths only in their units. */
+void rkc_set_system(gsl_odeiv2_step *s, stage_function *stage, int threads,
+                    const double *scale);
 
 #endif
