@@ -25,6 +25,8 @@ static const struct format {
   write_files_function *write_files; /* or this, for several files */
   double base;                       /* its side, unless --scale says more */
   double cells;                      /* that --cells has unless it is given */
+  bool cells_along;                  /* --cells is N, along the longest side */
+  bool cells_merged;                 /* --cells needs --merged */
   bool binary;                       /* nothing for a terminal */
   bool many;                         /* frames in one file */
   bool series;                       /* ParaView's .pvd lists such files */
@@ -62,6 +64,7 @@ static const struct format {
      .help = "surfaces of the spheres, binary",
      .takes = "scale offset box facets equal-volume merged cells" SOLID,
      .write = write_stl,
+     .cells_merged = true,
      .binary = true},
     {.name = "vti",
      .help = "voxels as VTK ImageData: ParaView",
@@ -90,7 +93,8 @@ static const struct format {
      .help = "folder for blockMesh and snappyHexMesh",
      .takes = "scale offset box cells facets bridge reach",
      .write_files = write_openfoam,
-     .cells = 40},
+     .cells = 40,
+     .cells_along = true},
     {.name = "freezethaw",
      .help = "folder for the paper's solver: positions, a part of Params",
      .takes = "scale offset box",
@@ -136,6 +140,38 @@ static void check_taken(const struct option_spec *options,
       die(EXIT_USAGE, "--%s: not for --format %s, only for%s", o->name,
           format->name, list);
   }
+}
+
+static bool given(struct option_spec *options, const char *name) {
+  return option_find(options, name)->given;
+}
+
+/* Options that are right one by one and not together. */
+static void check_together(struct option_spec *options, const struct request *q,
+                           size_t cells) {
+  const struct write_options *w = &q->write;
+  if (given(options, "frame") && given(options, "frames"))
+    die(EXIT_USAGE, "--frame and --frames: expected one of them");
+  if (q->format->cells_along && cells > 1)
+    die(EXIT_USAGE, "--cells: expected N, along the longest side");
+  if (w->merged && (given(options, "facets") || w->equal_volume || cells > 1))
+    die(EXIT_USAGE, "--merged: expected --cells N, no facets of spheres");
+  if (q->format->cells_merged && !w->merged && given(options, "cells"))
+    die(EXIT_USAGE, "--cells: expected --merged with it");
+  if (given(options, "reach") && !(q->shape.bridge > 0))
+    die(EXIT_USAGE, "--reach: expected --bridge with it");
+  if (given(options, "thickness") && (!q->shape.walls || q->shape.box_given))
+    die(EXIT_USAGE, "--thickness: expected --walls and no --box with it");
+  if (w->binary && w->distance)
+    die(EXIT_USAGE, "--binary and --distance: expected one of them");
+  if (w->binary && given(options, "type"))
+    die(EXIT_USAGE, "--binary: is bytes, expected no --type");
+  if (q->format->write_files && !q->output)
+    die(EXIT_USAGE, "--format %s: expected --output for its files",
+        q->format->name);
+  if (q->format->binary && !q->output && isatty(STDOUT_FILENO))
+    die(EXIT_USAGE, "--format %s: not for a terminal, expected > FILE",
+        q->format->name);
 }
 
 /* Cells from one number or three. */
@@ -415,44 +451,22 @@ int verb_export(int argc, char **argv) {
   for (q.format = formats; strcmp(q.format->name, format);)
     q.format++;
   check_taken(options, q.format);
-  q.chosen = option_find(options, "frame")->given;
-  if (q.chosen && which)
-    die(EXIT_USAGE, "--frame and --frames: expected one of them");
-  q.all = which ? !strcmp(which, "all") : q.format->many && !q.chosen;
-  if (!strcmp(format, "openfoam") && cells.count > 1)
-    die(EXIT_USAGE, "--cells: expected N, along the longest side");
-  if (q.write.merged && (option_find(options, "facets")->given ||
-                         q.write.equal_volume || cells.count > 1))
-    die(EXIT_USAGE, "--merged: expected --cells N, no facets of spheres");
-  if (!strcmp(format, "stl") && !q.write.merged &&
-      option_find(options, "cells")->given)
-    die(EXIT_USAGE, "--cells: expected --merged with it");
-  if (option_find(options, "reach")->given && !(q.shape.bridge > 0))
-    die(EXIT_USAGE, "--reach: expected --bridge with it");
-  if (option_find(options, "thickness")->given &&
-      (!q.shape.walls || q.shape.box_given))
-    die(EXIT_USAGE, "--thickness: expected --walls and no --box with it");
-  if (q.write.binary && q.write.distance)
-    die(EXIT_USAGE, "--binary and --distance: expected one of them");
-  if (q.write.binary && option_find(options, "type")->given)
-    die(EXIT_USAGE, "--binary: is bytes, expected no --type");
-  q.write.single = !strcmp(type, "float32");
-  q.write.quiet = input.quiet;
   box_check(&box);
   q.shape.box_given = box.count;
-  q.shape.gap_given = option_find(options, "gap")->given;
+  check_together(options, &q, cells.count);
+  q.chosen = given(options, "frame");
+  q.all = which ? !strcmp(which, "all") : q.format->many && !q.chosen;
+  q.write.single = !strcmp(type, "float32");
+  q.write.quiet = input.quiet;
+  q.shape.gap_given = given(options, "gap");
   memcpy(q.shape.box, box.at, sizeof q.shape.box);
   memcpy(q.shape.offset, offset.at, sizeof q.shape.offset);
-  if (q.format->cells > 0 && !option_find(options, "cells")->given)
+  if (q.format->cells > 0 && !given(options, "cells"))
     cells.at[0] = q.format->cells;
   take_cells(&cells, q.write.cells);
   q.write.threads = system_threads(q.write.threads);
-  if (q.format->write_files && !q.output)
-    die(EXIT_USAGE, "--format %s: expected --output for its files", format);
-  if (!option_find(options, "scale")->given)
+  if (!given(options, "scale"))
     q.shape.base = q.format->base;
-  if (q.format->binary && !q.output && isatty(STDOUT_FILENO))
-    die(EXIT_USAGE, "--format %s: not for a terminal, expected > FILE", format);
 
   struct frames frames;
   frames_open(&frames, &input, argc, argv, operand);

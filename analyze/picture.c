@@ -17,8 +17,16 @@
 #include "program/litter.h"
 #include "geometry/neighbors.h"
 
-const char *const picture_colors[] = {"height",   "speed", "radius",
-                                      "contacts", "id",    NULL};
+enum { HEIGHT, SPEED, RADIUS, CONTACTS, ID };
+
+const struct picture_color picture_colors[] = {
+    [HEIGHT] = {"height", "height (m)", "centre above the origin"},
+    [SPEED] = {"speed", "speed (m/s)", "of the centre", .from_zero = true},
+    [RADIUS] = {"radius", "radius (m)", "of the sphere"},
+    [CONTACTS] = {"contacts", "touching spheres", "how many touch the sphere",
+                  .from_zero = true, .whole = true},
+    [ID] = {"id", "id", "number of the sphere", .whole = true},
+    {0}};
 
 static char *joined(const char *a, const char *b, const char *c) {
   const size_t size = strlen(a) + strlen(b) + strlen(c) + 1;
@@ -100,17 +108,26 @@ char *picture_script(const char *name) {
 
 /* What is drawn. */
 
+/* The row of picture_colors that the user named. */
+static size_t chosen_color(const struct picture *p) {
+  size_t c = 0;
+  while (strcmp(picture_colors[c].name, p->color))
+    c++;
+  return c;
+}
+
 static void check_memory(int status) {
   if (status != GSL_SUCCESS)
     die(EXIT_IO, "%s", gsl_strerror(status));
 }
 
 /* One number for each sphere. */
-static double *colour_values(const struct picture *p, const struct bed *b) {
+static double *color_values(const struct picture *p, const struct bed *b) {
+  const size_t color = chosen_color(p);
   double *value = calloc(b->n + 1, sizeof *value);
   if (!value)
     die(EXIT_IO, "out of memory");
-  if (!strcmp(p->color, "contacts")) {
+  if (color == CONTACTS) {
     struct neighbors near = {0};
     check_memory(neighbors_find(&near, b->n, b->x, 3, b->r, 0));
     for (size_t k = 0; k < near.count; k++) {
@@ -122,10 +139,10 @@ static double *colour_values(const struct picture *p, const struct bed *b) {
   }
   for (size_t i = 0; i < b->n; i++) {
     const double *v = b->v + 3 * i;
-    value[i] = !strcmp(p->color, "height")  ? b->x[3 * i + 2]
-               : !strcmp(p->color, "speed") ? gsl_hypot3(v[0], v[1], v[2])
-               : !strcmp(p->color, "id")    ? (double)b->id[i]
-                                            : b->r[i];
+    value[i] = color == HEIGHT  ? b->x[3 * i + 2]
+               : color == SPEED ? gsl_hypot3(v[0], v[1], v[2])
+               : color == ID    ? (double)b->id[i]
+                                : b->r[i];
   }
   return value;
 }
@@ -141,7 +158,7 @@ static void widen(double *low, double *high, double from, double to,
 void picture_measure(struct picture *p, const struct bed *b,
                      const struct bed_header *h) {
   header_walls(h, p->box, p->fixed);
-  double *value = colour_values(p, b);
+  double *value = color_values(p, b);
   for (size_t i = 0; i < b->n; i++, p->measured++) {
     const bool first = !p->measured;
     for (size_t a = 0; a < 3; a++)
@@ -224,7 +241,7 @@ void picture_write(struct picture *p, const struct bed *b, const char *name) {
   FILE *out = fopen(path, "w");
   if (!out)
     die(EXIT_IO, "%s: %s", path, strerror(errno));
-  double *value = colour_values(p, b);
+  double *value = color_values(p, b);
   bool *seen = find_seen(p, b);
   fprintf(out, "# t=%.17g\nx\ty\tz\tr\tvalue\n", b->t);
   for (size_t i = 0; i < b->n; i++)
@@ -293,20 +310,16 @@ void picture_run(struct picture *p, const char *package,
 }
 
 void picture_draw(struct picture *p, const char *name, const char *output) {
-  static const char *const labels[] = {"height (m)", "speed (m/s)",
-                                       "radius (m)", "touching spheres", "id"};
-  int c = 0;
-  while (strcmp(picture_colors[c], p->color))
-    c++;
+  const struct picture_color *color = &picture_colors[chosen_color(p)];
   const double *b = p->box;
   double size[3], widest = 0, low = p->low, high = p->high;
-  if (c == 1 || c == 3)
+  if (color->from_zero)
     low = 0;
   for (int a = 0; a < 3; a++)
     widest = fmax(widest, b[2 * a + 1] - b[2 * a]);
   for (int a = 0; a < 3; a++) /* walls may meet */
     size[a] = fmax(b[2 * a + 1] - b[2 * a], 1e-6 * widest);
-  if (!(high > low) && c >= 3) {
+  if (!(high > low) && color->whole) {
     high = low + 1;
   } else if (!(high > low)) { /* one value: the middle of the scale */
     const double half = low != 0 ? fabs(low) / 2 : 0.5;
@@ -320,7 +333,7 @@ void picture_draw(struct picture *p, const char *name, const char *output) {
            "lean=%.9g; value_column='value'; value_low=%.9g; value_high=%.9g; "
            "value_label='%s'; facets=%zu.; magnify=%d",
            p->view.at[0], p->view.at[1], b[0], b[2], b[4], size[0], size[1],
-           size[2], 0.03 * fmax(size[0], size[1]), low, high, labels[c],
+           size[2], 0.03 * fmax(size[0], size[1]), low, high, color->label,
            p->facets, p->half_size ? 1 : 2);
   char *script = picture_script("bed.gp");
   const char *data = picture_path(p, name);

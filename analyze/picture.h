@@ -11,7 +11,7 @@
 #include "program/progress.h"
 
 struct picture {
-  const char *color;       /* one of picture_colors */
+  const char *color;       /* the name of one of picture_colors */
   struct option_list view; /* turn around the vertical, angle to it (degrees) */
   size_t facets;           /* of all balls together, about */
   bool half_size;          /* 640 x 480 pixels */
@@ -26,12 +26,20 @@ struct picture {
   size_t measured;
 };
 
-extern const char *const picture_colors[];
+/* A quantity that colours can show. */
+struct picture_color {
+  const char *name, *label, *help;
+  bool from_zero; /* the scale begins at 0 */
+  bool whole;     /* whole numbers */
+};
+
+/* All of them; the last has no name. */
+extern const struct picture_color picture_colors[];
 
 /* clang-format off */
 #define PICTURE_OPTIONS(p)                                                     \
   {.name = "color", .type = OPTION_TEXT, .value = &(p).color,                  \
-   .choices = picture_colors, .help = "quantity that the colours show"},       \
+   OPTION_TABLE(picture_colors), .help = "quantity that the colours show"},    \
   {.name = "view", .type = OPTION_LIST, .value = &(p).view, .least = 2,        \
    .most = 2, .unit = "degrees",                                               \
    .help = "turn around the vertical, angle to it"}

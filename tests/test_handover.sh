@@ -374,6 +374,10 @@ refuse 'walls beyond the box' 3 '--walls: none is within --box' --format raw \
   --walls --box 0.1,0.9,0.1,0.9,0.1,0.9 "$T/bed"
 refuse 'thickness alone' 2 '--thickness: expected --walls' --format raw \
   --thickness 0.1 "$T/bed"
+refuse 'thickness of a box' 2 '--thickness: expected --walls and no --box' \
+  --format raw --walls --box 0,1,0,1,0,1 --thickness 0.1 "$T/bed"
+refuse 'reach alone' 2 '--reach: expected --bridge' --format raw --reach 0.01 \
+  "$T/bed"
 
 # --- gmsh --------------------------------------------------------------------
 geo() { # FILE: its spheres as a table
