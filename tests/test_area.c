@@ -15,14 +15,11 @@
 #include "geometry/area.h"
 #include "check.h"
 #include "geometry/volume.h"
+#include "sample.h"
 
 #define ULPS(n) ((n)*DBL_EPSILON)
 
 enum { MOST = 64, PIECES = 4000 };
-
-static double uniform(gsl_rng *rng, double a, double b) {
-  return a + (b - a) * gsl_rng_uniform(rng);
-}
 
 static double segment(double r, double h) { /* of a disc beyond a line at h */
   return r * r * acos(h / r) - h * sqrt((r - h) * (r + h));

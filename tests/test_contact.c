@@ -8,15 +8,12 @@
 #include <gsl/gsl_rng.h>
 #include "check.h"
 #include "model/contact.h"
+#include "sample.h"
 
 enum { CASES = 2000 };
 
 /* Rounding of a handful of operations, each relative to its result. */
 static const double rounding = 8 * DBL_EPSILON;
-
-static double uniform(gsl_rng *rng, double a, double b) {
-  return a + (b - a) * gsl_rng_uniform(rng);
-}
 
 static void vector(gsl_rng *rng, double length, double v[3]) {
   gsl_ran_dir_3d(rng, &v[0], &v[1], &v[2]);

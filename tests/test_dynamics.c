@@ -15,6 +15,7 @@
 #include "check.h"
 #include "dynamics/dynamics.h"
 #include "oracle.h"
+#include "sample.h"
 
 static const enum scene_model models[3] = {SCENE_BASIC, SCENE_FRICTION,
                                            SCENE_ROTATION};
@@ -22,10 +23,6 @@ static const char *const model_names[3] = {"basic", "friction", "rotation"};
 static const struct dynamics_options cells = {false, 1}, all_pairs = {true, 1};
 
 /* --- random scenes ---------------------------------------------------------*/
-
-static double uniform(gsl_rng *rng, double a, double b) {
-  return a + (b - a) * gsl_rng_uniform(rng);
-}
 
 static void direction(gsl_rng *rng, double u[3]) {
   gsl_ran_dir_3d(rng, &u[0], &u[1], &u[2]);
@@ -98,13 +95,6 @@ static struct sample random_sample(gsl_rng *rng, const struct recipe *p) {
   for (size_t k = 0; k < p->walls; k++)
     add_wall_beside(rng, &s, uniform(rng, -0.1, 0.05));
   return s;
-}
-
-static double *numbers(size_t n) {
-  double *x = calloc(n ? n : 1, sizeof *x);
-  if (!x)
-    abort();
-  return x;
 }
 
 /* The right-hand side at a bed's state, split by kind: 3n each, 0 where spins

@@ -12,10 +12,7 @@
 #include <unistd.h>
 #include "check.h"
 #include "geometry/neighbors.h"
-
-static double uniform(gsl_rng *rng, double a, double b) {
-  return a + (b - a) * gsl_rng_uniform(rng);
-}
+#include "sample.h"
 
 struct cloud {
   size_t n, stride;

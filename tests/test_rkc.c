@@ -20,16 +20,10 @@
 #include "steppers/chebyshev.h"
 #include "steppers/rkc.h"
 #include "model/scene.h"
+#include "sample.h"
 
 #define ULPS(n) ((n)*DBL_EPSILON)
 #define COUNT(array) (sizeof(array) / sizeof *(array))
-
-static double *numbers(size_t n) {
-  double *x = calloc(n, sizeof *x);
-  if (!x)
-    exit(99);
-  return x;
-}
 
 static bool same(size_t dim, const double x[], const double y[]) {
   return !memcmp(x, y, dim * sizeof *x);

@@ -19,6 +19,7 @@
 #include "check.h"
 #include "geometry/vec3.h"
 #include "geometry/volume.h"
+#include "sample.h"
 
 #define BALL (4 * M_PI / 3) /* the unit ball */
 #define ULPS(n) ((double)(n)*DBL_EPSILON)
@@ -38,10 +39,6 @@ static double united(size_t n, const double *x, const double *r,
   double volume = GSL_NAN;
   CHECK(volume_union(n, x, r, box, &volume) == GSL_SUCCESS);
   return volume;
-}
-
-static double uniform(gsl_rng *rng, double a, double b) {
-  return a + (b - a) * gsl_rng_uniform(rng);
 }
 
 static void random_spheres(gsl_rng *rng, size_t n, double rmin, double rmax,

@@ -17,13 +17,7 @@
 #include "oracle.h"
 #include "steppers/stiffness.h"
 #include "model/travel.h"
-
-static double *numbers(size_t n) {
-  double *x = calloc(n, sizeof *x);
-  if (!x)
-    abort();
-  return x;
-}
+#include "sample.h"
 
 /* --- how far a step reaches ------------------------------------------------*/
 
