@@ -65,17 +65,15 @@ static void start(struct bounce *b, struct run_clock begun, bool quiet) {
   int status = drop_alloc(&b->it, &b->drop, b->integrate, b->height, 0);
   if (status != GSL_SUCCESS)
     die_status(status, "--method %s", b->integrate->method);
-  status = run_watch_alloc(
-      &b->watch,
-      &(struct run_watch_options){
-          .begun = begun,
-          .quiet = quiet,
-          .integrate = b->integrate,
-          .integrator = b->it,
-          .stiff = "the contact",
-          .whose = "the sphere's",
-          .result = "the bounce",
-          .nobody = e == 1 ? "e = 1" : NULL});
+  status = run_watch_alloc(&b->watch, &(struct run_watch_options){
+                                          .begun = begun,
+                                          .quiet = quiet,
+                                          .integrate = b->integrate,
+                                          .integrator = b->it,
+                                          .stiff = "the contact",
+                                          .whose = "the sphere's",
+                                          .result = "the bounce",
+                                          .nobody = e == 1 ? "e = 1" : NULL});
   if (status != GSL_SUCCESS)
     die_status(status, "start");
   b->weight = 0.5 * (1 + e * e);

@@ -76,7 +76,7 @@ static void print_row(const struct precision_scene *s,
   double best = INFINITY, end = start;
   do {
     const double before = end;
-    r = (struct precision_result){.status = "ok"};
+    r = (struct precision_result){.status = measure_ok};
     const int status = s->run(c, reference, &r);
     if (status != GSL_SUCCESS)
       die_status(status, "%s: method %s", s->name, c->integrate->method);
@@ -87,7 +87,7 @@ static void print_row(const struct precision_scene *s,
          c->integrate->step);
   for (size_t e = 0; s->errors[e]; e++) {
     printf("\t%.6g", r.error[e]);
-    if (!isfinite(r.error[e]) && !strcmp(r.status, "ok"))
+    if (!isfinite(r.error[e]) && r.status == measure_ok)
       r.status = "nan";
   }
   printf("\t%zu\t%.6g\t%zu\t%zu\t%s\n", r.evaluations, best, r.accepted,

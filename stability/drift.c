@@ -187,10 +187,9 @@ int verb_drift(int argc, char **argv) {
   puts("method\ttol\tstep\tunits\terror\tlargest\tevaluations\tstatus");
   const double first = energy(m);
   double next = 1, largest = 0, rise = 0;
-  const char *word = "ok";
-  while (!strcmp(word, "ok")) {
-    if (integrate_step(m->integrator) != GSL_SUCCESS)
-      word = "gave_up";
+  bool going = true;
+  while (going) {
+    going = integrate_step(m->integrator) == GSL_SUCCESS;
     const double error = energy(m) / first - 1;
     if (!(fabs(error) <= largest))
       largest = fabs(error);
@@ -199,11 +198,12 @@ int verb_drift(int argc, char **argv) {
     rise = integrate_state(m->integrator)[ROW_V + 2];
     const bool turned = e.box || (last_rise > 0 && rise <= 0);
     if ((integrate_time(m->integrator) >= (next - 0.1) * e.unit && turned) ||
-        strcmp(word, "ok")) {
+        !going) {
       printf("%s\t%.3g\t%.3g\t%.6g\t%.6g\t%.6g\t%zu\t%s\n", integrate.method,
              integrate.tol, integrate.step,
              integrate_time(m->integrator) / e.unit, error, largest,
-             dynamics_counts(m->dynamics).evaluations, word);
+             dynamics_counts(m->dynamics).evaluations,
+             going ? "ok" : "gave_up");
       fflush(stdout);
       largest = 0;
       if (next >= units)

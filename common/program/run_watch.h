@@ -27,7 +27,7 @@ struct run_watch_options {
   const char *whose;  /* the energy: "the spheres'" */
   const char *result; /* of the run: "the bed" */
   const char *nobody; /* why no energy can be lost: "e = 1"; NULL if it can */
-  bool quiet; /* no line of progress */
+  bool quiet;         /* no line of progress */
 };
 
 /* Keeps the pointers of the options. GSL_SUCCESS, GSL_ENOMEM. */
