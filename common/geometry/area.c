@@ -149,7 +149,7 @@ static double disc_cell(const struct power *p, size_t i,
     const enum power_leaves leaves = power_plane(p, i, p->partner[q], plane);
     if (leaves == POWER_NONE)
       return 0;
-    if (leaves == POWER_ALL)
+    if (leaves == POWER_ALL || plane[3] >= p->r[i])
       continue;
     double *line = lines[count++];
     line[0] = plane[0];

@@ -262,7 +262,8 @@ static double cell_volume(const struct power *p, size_t i, const double box[6],
         power_plane(p, i, p->partner[q], planes[count]);
     if (leaves == POWER_NONE)
       return 0;
-    count += leaves == POWER_HALF;
+    /* of a large ball's partners few cut it */
+    count += leaves == POWER_HALF && planes[count][3] < p->r[i];
   }
   const double volume =
       volume_ball_planes(p->r[i], count, (const double(*)[4])planes);
