@@ -18,6 +18,8 @@
 #include <string.h>
 #include "check.h"
 #include "geometry/vec3.h"
+#include "geometry/area.h"
+#include "geometry/box.h"
 #include "geometry/volume.h"
 #include "sample.h"
 
@@ -1077,6 +1079,41 @@ static void test_sampled(void) {
   gsl_rng_free(rng);
 }
 
+/* What is full is full, and never more than that: a box among spheres that are
+   larger than itself, a giant beside small ones; a rectangle likewise. */
+static void test_full(void) {
+  gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+  size_t above = 0;
+  for (unsigned long seed = 1; seed <= 300; seed++) {
+    gsl_rng_set(rng, seed);
+    enum { N = 12 };
+    double x[3 * N], r[N], c[2 * N], box[6], volume = GSL_NAN, area = GSL_NAN;
+    for (int k = 0; k < 6; k++)
+      box[k] = k % 2 ? box[k - 1] + 0.1 + gsl_rng_uniform(rng)
+                     : gsl_rng_uniform(rng) - 0.5;
+    for (size_t i = 0; i < N; i++) {
+      for (size_t k = 0; k < 3; k++)
+        x[3 * i + k] =
+            box[2 * k] + gsl_rng_uniform(rng) * (box[2 * k + 1] - box[2 * k]);
+      c[2 * i] = x[3 * i];
+      c[2 * i + 1] = x[3 * i + 1];
+      r[i] = (i ? 0.1 : 2.5) * (1 + 10 * (double)(seed % 2)) +
+             gsl_rng_uniform(rng);
+    }
+    const double whole = box_volume(box);
+    const double rectangle = (box[1] - box[0]) * (box[3] - box[2]);
+    CHECK(volume_union(N, x, r, box, &volume) == GSL_SUCCESS);
+    CHECK(area_union(N, c, r, box, &area) == GSL_SUCCESS);
+    const double scale = gsl_pow_3(r[0]) * N;
+    CHECK_CLOSE(volume, whole, 100 * DBL_EPSILON * scale);
+    CHECK_CLOSE(area, rectangle, 100 * DBL_EPSILON * scale);
+    CHECK(volume <= whole && area <= rectangle);
+    above += volume == whole;
+  }
+  CHECK(above > 10); /* else no rounding ever went that way */
+  gsl_rng_free(rng);
+}
+
 int main(void) {
   /* quadrature at the limit of rounding says so; its estimates are checked */
   gsl_set_error_handler_off();
@@ -1095,6 +1132,7 @@ int main(void) {
   test_union_quadrature();
   test_symmetric_three();
   test_identities();
+  test_full();
   test_sampled();
   return check_done();
 }

@@ -179,8 +179,10 @@ int area_union(size_t n, const double *c, const double *r,
   double sum = 0;
   for (size_t i = 0; i < p->n && lines; i++)
     sum += disc_cell(p, i, rectangle, lines);
-  if (lines)
-    *area = sum;
+  const double whole =
+      fmax(0, rectangle[1] - rectangle[0]) * (rectangle[3] - rectangle[2]);
+  if (lines) /* a full one may come out as more than that by rounding */
+    *area = sum > whole ? fmax(0, whole) : sum;
   power_free(p);
   free(lines);
   return lines ? GSL_SUCCESS : GSL_ENOMEM;

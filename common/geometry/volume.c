@@ -55,6 +55,7 @@
 #include <stdlib.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
+#include "geometry/box.h"
 #include "geometry/halfspace.h"
 #include "geometry/power.h"
 #include "geometry/vec3.h"
@@ -196,15 +197,6 @@ static bool empty(const double box[6]) {
   return box[1] <= box[0] || box[3] <= box[2] || box[5] <= box[4];
 }
 
-static bool misses(const double c[3], double r, const double box[6]) {
-  double d2 = 0;
-  for (int k = 0; k < 3; k++) {
-    const double d = fmax(0, fmax(box[2 * k] - c[k], c[k] - box[2 * k + 1]));
-    d2 += d * d;
-  }
-  return d2 >= r * r;
-}
-
 /* The faces of a box that a ball reaches, seen from its centre; room for 6. */
 static size_t box_planes(const double c[3], double r, const double box[6],
                          double (*planes)[4]) {
@@ -223,7 +215,7 @@ static size_t box_planes(const double c[3], double r, const double box[6],
 }
 
 double volume_ball_box(const double c[3], double r, const double box[6]) {
-  if (r <= 0 || empty(box) || misses(c, r, box))
+  if (r <= 0 || empty(box) || box_misses_ball(box, c, r))
     return 0;
   double planes[6][4];
   const size_t count = box_planes(c, r, box, planes);
@@ -272,7 +264,7 @@ static double cell_volume(const struct power *p, size_t i, const double box[6],
 }
 
 static bool reaches(const double *c, double r, const void *box) {
-  return r > 0 && !empty(box) && !misses(c, r, box);
+  return r > 0 && !empty(box) && !box_misses_ball(box, c, r);
 }
 
 int volume_union(size_t n, const double *x, const double *r,
@@ -296,8 +288,11 @@ int volume_union_told(size_t n, const double *x, const double *r,
     observer_tell(observer, i, p->n);
     sum_add(&sum, cell_volume(p, i, box, planes));
   }
-  if (planes)
-    *volume = sum.total + sum.lost;
+  if (planes) {
+    /* a box that is full may come out as more than that by rounding */
+    const double whole = fmax(0, box_volume(box)), all = sum.total + sum.lost;
+    *volume = all > whole ? whole : all;
+  }
   power_free(p);
   free(planes);
   return planes ? GSL_SUCCESS : GSL_ENOMEM;
@@ -370,8 +365,7 @@ int volume_sampled(size_t n, const double *x, const double *r,
   }
   free(marks);
   const double points = (double)count * (double)count * (double)count;
-  const double whole =
-      (box[1] - box[0]) * (box[3] - box[2]) * (box[5] - box[4]);
+  const double whole = box_volume(box);
   *sum = (double)hits / points * whole;
   *united = (double)fresh / points * whole;
   return GSL_SUCCESS;
