@@ -71,8 +71,7 @@ static struct measured measure(const struct frames *f,
   const size_t least = set->least                  ? set->least
                        : scene_has_friction(scene) ? LEAST_ROUGH
                                                    : LEAST_SMOOTH;
-  if (network_rattlers(&m.network, least, m.rattler) == SIZE_MAX)
-    frame_check(f, b, GSL_ENOMEM);
+  frame_check(f, b, network_rattlers(&m.network, least, m.rattler));
   network_degrees(&m.network, NULL, m.degree, m.with_spheres);
   network_degrees(&m.network, m.rattler, m.rigid, m.rigid_spheres);
   return m;

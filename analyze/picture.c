@@ -118,7 +118,7 @@ static size_t chosen_color(const struct picture *p) {
 
 static void check_memory(int status) {
   if (status != GSL_SUCCESS)
-    die(EXIT_IO, "%s", gsl_strerror(status));
+    die_status(status, "colours");
 }
 
 /* One number for each sphere. */

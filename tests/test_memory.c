@@ -321,8 +321,7 @@ static int find_network(const struct sample *s) {
   int more = status;
   if (status == GSL_SUCCESS) {
     rattler = calloc(s->bed.n, sizeof *rattler);
-    if (!rattler || network_rattlers(&w, 2, rattler) == SIZE_MAX)
-      more = GSL_ENOMEM;
+    more = rattler ? network_rattlers(&w, 2, rattler) : GSL_ENOMEM;
   }
   free(rattler);
   network_free(&w);

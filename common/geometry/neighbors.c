@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "geometry/neighbors.h"
 
+#include <assert.h>
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>
@@ -455,6 +456,7 @@ int neighbors_find(struct neighbors *nb, size_t n, const double *x,
   const int status = search(nb, &c);
   if (status != GSL_SUCCESS)
     nb->count = 0;
+  assert(status != GSL_SUCCESS || nb->first[n] == nb->count);
   return status;
 }
 

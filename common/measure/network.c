@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "measure/network.h"
 
+#include <assert.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -100,6 +101,7 @@ int network_find(struct network *w, const struct scene *s, const struct bed *b,
       if (gap <= wall_reach)
         set_wall(&w->at[w->count++], s, b, i, k, gap);
     }
+  assert(w->count == all);
   if (!apart)
     network_free(w);
   return apart ? GSL_SUCCESS : GSL_EDOM;
@@ -136,23 +138,56 @@ void network_degrees(const struct network *w, const bool *without,
   }
 }
 
-size_t network_rattlers(const struct network *w, size_t least, bool *rattler) {
-  size_t *degree = malloc((2 * w->spheres + 1) * sizeof *degree);
+/* Partners of the spheres by the contacts that count: sphere i's are
+   partner[start[i]] ... partner[start[i + 1] - 1]. start: spheres + 2. */
+static void list_partners(const struct network *w, size_t *start,
+                          size_t *partner) {
+  for (size_t p = 0; p < w->count; p++) {
+    const struct network_contact *c = &w->at[p];
+    start[c->i + 2] += c->counts && !c->wall;
+    if (!c->wall)
+      start[c->j + 2] += c->counts;
+  }
+  for (size_t k = 2; k < w->spheres + 2; k++)
+    start[k] += start[k - 1];
+  for (size_t p = 0; p < w->count; p++) {
+    const struct network_contact *c = &w->at[p];
+    if (!c->counts || c->wall)
+      continue;
+    partner[start[c->i + 1]++] = c->j;
+    partner[start[c->j + 1]++] = c->i;
+  }
+}
+
+/* Each sphere is taken out once, and its partners looked at then: a chain of n
+   goes in n steps, not in n rounds. */
+int network_rattlers(const struct network *w, size_t least, bool *rattler) {
+  const size_t n = w->spheres;
+  size_t *degree = calloc(4 * n + 2 * w->count + 3, sizeof *degree);
   if (!degree)
-    return SIZE_MAX;
-  memset(rattler, 0, w->spheres * sizeof *rattler);
-  size_t count = 0;
-  for (size_t before = SIZE_MAX; count != before;) {
-    before = count;
-    network_degrees(w, rattler, degree, degree + w->spheres);
-    for (size_t i = 0; i < w->spheres; i++)
-      if (!rattler[i] && degree[i] < least) {
-        rattler[i] = true;
-        count++;
-      }
+    return GSL_ENOMEM;
+  size_t *with_spheres = degree + n, *start = with_spheres + n;
+  size_t *partner = start + n + 2, *out = partner + 2 * w->count; /* a stack */
+  network_degrees(w, NULL, degree, with_spheres);
+  list_partners(w, start, partner);
+  size_t waiting = 0;
+  for (size_t i = 0; i < n; i++) {
+    rattler[i] = degree[i] < least;
+    if (rattler[i])
+      out[waiting++] = i;
+  }
+  while (waiting) {
+    const size_t i = out[--waiting];
+    for (size_t q = start[i]; q < start[i + 1]; q++) {
+      const size_t j = partner[q];
+      if (rattler[j] || --degree[j] >= least)
+        continue;
+      rattler[j] = true;
+      out[waiting++] = j;
+    }
   }
   free(degree);
-  return count;
+  return GSL_SUCCESS;
 }
 
 void network_net_force(const struct network *w, const struct scene *s,

@@ -54,9 +54,8 @@ void network_degrees(const struct network *w, const bool *without,
 
 /* Spheres with fewer than least contacts that count, walls included, are
    rattlers; so are those that have fewer once the rattlers are taken out, and
-   so on. rattler: one flag per sphere. Returns their number, or SIZE_MAX
-   without memory. */
-size_t network_rattlers(const struct network *w, size_t least, bool *rattler);
+   so on. rattler: one flag per sphere. Returns GSL_SUCCESS, GSL_ENOMEM. */
+int network_rattlers(const struct network *w, size_t least, bool *rattler);
 
 /* Sum of all forces on each sphere, with its weight (N), 3 per sphere; m a. */
 void network_net_force(const struct network *w, const struct scene *s,
