@@ -166,11 +166,11 @@ int run(const struct settings *s, struct bed *b,
       .set = s, .header = header, .bed = b, .start = b->t, .mark = "ok"};
   const struct run_clock begun = run_clock_now();
   r.rest = rest_watch_begin(b->t, &s->similarity);
-  int status = motion_alloc(
-      &r.motion, &s->scene, b, &s->integrate,
-      &(struct dynamics_options){.all_pairs = !strcmp(s->pairs, "all"),
-                                 .threads = (int)s->threads},
-      s->travel / s->scene.law.kappa);
+  int status =
+      motion_alloc(&r.motion, &s->scene, b, &s->integrate,
+                   &(struct dynamics_options){.all_pairs = s->all_pairs,
+                                              .threads = (int)s->threads},
+                   s->travel / s->scene.law.kappa);
   if (status != GSL_SUCCESS)
     die_status(status, "method %s", s->integrate.method);
   r.y = malloc(dynamics_dimension(r.motion->dynamics) * sizeof *r.y);

@@ -19,6 +19,7 @@ struct settings {
   double travel, time;
   const char *pairs, *scene_file, *stats, *log;
   size_t frames, threads;
+  bool all_pairs; /* by pairs */
   bool until_rest, allow_partial, quiet;
 };
 

@@ -8,7 +8,9 @@
 #include "program/shared_options.h"
 #include "start.h"
 
-static const char *const pair_searches[] = {"cells", "all", NULL};
+enum { CELLS, ALL };
+static const char *const pair_searches[] = {
+    [CELLS] = "cells", [ALL] = "all", NULL};
 
 int main(int argc, char **argv) {
   struct settings s = {.fill = {.count = 200,
@@ -23,7 +25,7 @@ int main(int argc, char **argv) {
                        .integrate = {.method = "rkc", .hinit = 0.1},
                        .travel = 1,
                        .time = 8,
-                       .pairs = "cells",
+                       .pairs = pair_searches[CELLS],
                        .frames = 1,
                        .threads = 1};
   /* clang-format off */
@@ -86,7 +88,8 @@ int main(int argc, char **argv) {
   struct bed_header header = {0};
   start_make(&s, options, &bed, &header);
   integration_check(&s.integrate, bed.n);
-  if (!integrate_method(s.integrate.method)->type && strcmp(s.pairs, "cells"))
+  s.all_pairs = !strcmp(s.pairs, pair_searches[ALL]);
+  if (!integrate_method(s.integrate.method)->type && s.all_pairs)
     die(EXIT_USAGE, "--pairs %s: not for --method %s", s.pairs,
         s.integrate.method);
   if (s.time < bed.t)

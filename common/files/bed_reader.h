@@ -18,15 +18,15 @@ enum {
 
 struct bed_reader;
 
-/* A format: its name and what it is; whether this line says that a file is of
-   it (first: no line but blank ones and comments came before); whether its
-   fields may stand in quotes; the bytes of what its reader has to remember,
-   zeros at first; and its reader, which is what bed_reader_next is. */
+/* A format and its reader. */
 struct bed_format {
   const char *name, *help;
+  /* Does this line say that the file has this format? first: only blank lines
+     and comments came before it. */
   bool (*begins)(const struct bed_reader *r, const char *line, bool first);
-  bool quotes;
-  size_t state_size;
+  bool quotes;       /* fields may stand in quotes */
+  size_t state_size; /* bytes of r->state, the reader's own; zeros at first */
+  /* As bed_reader_next. */
   int (*next)(struct bed_reader *, struct bed *);
 };
 
@@ -98,7 +98,7 @@ bool reader_number(const struct bed_reader *r, struct text field,
 int reader_line_number(struct bed_reader *r, const char *what, double *value);
 int reader_line_count(struct bed_reader *r, const char *what, size_t *count);
 
-/* Columns that stand in no quotes, with this separator; none yet. */
+/* Removes all columns. From now on fields have this separator and no quotes. */
 void reader_clear_columns(struct bed_reader *r, char separator);
 /* As columns_add, with the error in r. */
 int reader_add_column(struct bed_reader *r, enum column c, struct text name);

@@ -195,7 +195,7 @@ static void remove_word(struct words *w, size_t k) {
     memcpy(w->at[k], w->at[k + 1], LONGEST_WORD);
 }
 
-/* Says whose, not what. */
+/* Removes words that say whose the quantity is, not which one it is. */
 static void remove_fillers(struct words *w) {
   for (size_t k = w->count; k-- > 0;)
     if (in_list(w->at[k], " of the particle particles sphere spheres grain "

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the columns of a table are: by the names that others give them, by
-   their units, by their neighbours. What two columns may be, none is: that is
-   an error which names both. Safe in any thread. Tested in
+/* What the columns of a table mean: by the names that other programs give them,
+   by their units and by the columns beside them. Two columns that may have the
+   same meaning are an error, which names both. Safe in any thread. Tested in
    tests/test_columns.c. */
 #ifndef COLUMNS_H
 #define COLUMNS_H

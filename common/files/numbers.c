@@ -22,7 +22,8 @@ static const char *skip_sign(const char *at) {
 }
 
 /* Decimal digits with a point and an exponent, and nothing else: strtod takes
-   0x10, nan and infinity as well, which are words or slips where they occur. */
+   0x10, nan and infinity as well, which are words or mistakes in files and
+   options. */
 static bool is_decimal(const char *text) {
   const char *at = skip_sign(text);
   const char *digits = at;

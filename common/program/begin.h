@@ -3,10 +3,10 @@
 #ifndef BEGIN_H
 #define BEGIN_H
 
-/* Its name for messages, and the verb that runs, NULL without one; GSL's error
-   handler off; what goes with it when it ends (litter.h); standard streams that
-   are closed kept from being the next file that is opened. May be called again.
-   Both texts must live on. */
+/* Keeps the program's name for messages, and the verb that runs (NULL: none);
+   switches GSL's error handler off; watches the program's end (litter.h); and
+   opens closed standard streams, so that no file takes their place. May be
+   called again. Both texts must live on. */
 void program_begin(const char *name, const char *verb);
 
 #endif

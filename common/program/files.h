@@ -11,8 +11,8 @@
 /* Written beside its final name and renamed when complete; what is not a
    regular file (a pipe, /dev/null) is written directly. A symbolic link stays,
    and what it points to is written; mode and, where we may, owner stay. A file
-   with several names (hard links) is not written through: the others keep what
-   they had, which is said. */
+   with several names (hard links) is replaced under this name only; the others
+   keep the old contents, and a message says so. */
 struct output_file {
   const char *path; /* as the user has it */
   char *target;     /* where that leads to; NULL where written directly */
@@ -29,11 +29,11 @@ struct output_file {
 void output_open(struct output_file *f, const char *path);
 void output_commit(struct output_file *f);
 
-/* A folder for several files, made if there is none; it goes again if nothing
-   comes to be in it. Exits likewise. */
+/* Makes a folder for several files unless it exists; it is removed at the end
+   if it is still empty. Exits likewise. */
 void output_folder(const char *path);
 
-/* The same within a folder; its path, which stays. */
+/* The same within a folder. The returned path lives as long as the program. */
 const char *output_folder_in(const char *folder, const char *name);
 
 /* output_open of a file in a folder. */

@@ -119,7 +119,7 @@ void help_print_verbs(const struct verbs *v) {
 
 /* The page for man. */
 
-/* Text with what roff would take for its own made plain. */
+/* Text in which characters that mean something to roff are escaped. */
 static void put_roff(const char *text, size_t length) {
   for (size_t k = 0; k < length; k++)
     switch (text[k]) {

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The help of a program, its man page and its completion, from the table of its
-   options. Each prints to
-   standard output and exits. Tested in tests/test_cli.sh and
-   tests/test_install.sh. */
+   options. Each prints to standard output and exits. Tested in
+   tests/test_cli.sh and tests/test_install.sh. */
 #ifndef HELP_H
 #define HELP_H
 
@@ -31,12 +30,12 @@ void help_verbs(const struct verbs *v);
 
 _Noreturn void help_print(const struct program *p);
 _Noreturn void help_print_version(const struct program *p);
-/* Of a program that does nothing without a verb: its verbs. */
+/* For a program that does nothing without a verb: lists its verbs. */
 _Noreturn void help_print_verbs(const struct verbs *v);
-/* A page for man, in roff, of the program or of its verb. */
+/* The man page of the program or of its verb, in roff. */
 _Noreturn void help_print_man(const struct program *p);
-/* For a shell: a line for each option, "--NAME", its kind and its choices,
-   separated by tabs; and, of a program without its verb, the verbs' names. */
+/* What a shell completes: for each option a line with "--NAME", its kind and
+   its choices, separated by tabs; for a program with verbs also their names. */
 _Noreturn void help_print_completion(const struct program *p);
 
 #endif

@@ -7,11 +7,11 @@
 #include "files/numbers.h"
 #include "program/messages.h"
 
-/* Spheres that a method with a dense Jacobian is let loose on: it solves a
-   system at a cost that grows as n^3. */
+/* Most spheres for a method with a dense Jacobian: the cost of solving its
+   system grows as n^3. */
 enum { DENSE_SPHERES = 64 };
 
-/* The control of most methods, and those that differ. */
+/* The control of most methods, then the methods that differ. */
 void integration_control_unset(char *text, size_t size) {
   const struct integrate_control *usual = integrate_methods->control;
   size_t used = (size_t)snprintf(text, size, "%s", usual->name);

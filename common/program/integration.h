@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How an integration is asked for and what is said where it fails, in the same
-   words by every program. Tested in tests/test_cli.sh. */
+/* The options of an integration, and the messages where it fails: the same in
+   every program. Tested in tests/test_cli.sh. */
 #ifndef INTEGRATION_H
 #define INTEGRATION_H
 
@@ -11,9 +11,10 @@
 void integration_control_unset(char *text, size_t size);
 void integration_tol_unset(char *text, size_t size);
 
-/* Exits with EXIT_USAGE where options do not fit together that are right one
-   by one: a method without an error estimate and no fixed step, one that takes
-   none, or one that is too expensive for so many spheres. */
+/* Exits with EXIT_USAGE if options are right one by one but do not fit
+   together: a method without an error estimate that has no fixed step, a fixed
+   step for a method that takes none, or a method that is too expensive for this
+   many spheres. */
 void integration_check(const struct integrate_options *o, size_t spheres);
 
 /* What stopped a run, by the code of integrate_step. */

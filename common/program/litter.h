@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Litter, which is not to be left behind: files that are half-written, scratch
-   files and directories, a program that works for this one. All of it goes when
-   the process exits or is ended by a signal (HUP, INT, QUIT, TERM, XCPU, ABRT),
-   of which it then dies as if nobody had caught it.
+/* Litter is what must not be left behind: half-written files, scratch files and
+   directories, a program that works for this one. All of it is removed when the
+   process exits or is ended by a signal (HUP, INT, QUIT, TERM, XCPU, ABRT). The
+   process then dies of that signal as if it had not been caught.
 
    A reader of standard output that has gone away ends the process at once and
    without a word, exit status EXIT_IO; a reader of anything else is an error of

@@ -42,12 +42,14 @@ void run_watch_mode(struct run_watch *w, struct stiffness_mode mode);
 /* After every accepted step. */
 void run_watch_step(struct run_watch *w);
 
-/* What the motion has left (J): gravity's energy, and what is kinetic or in
-   contacts; it never grows. rounding: of the sum. The first call is the
-   start's. GSL_SUCCESS, GSL_ERANGE where it is not finite. */
+/* The energy that the motion has left (J), which never grows: that of gravity,
+   and the kinetic energy with that of contacts. rounding: error of the sum. The
+   first call is for the start. GSL_SUCCESS, GSL_ERANGE where it is not
+   finite. */
 int run_watch_energy(struct run_watch *w, double gravity, double inner,
                      double rounding);
-/* Warns, once, of energy that was gained without a source, or was lost. */
+/* Warns, once, if energy was gained without a source, or lost where none can
+   be. */
 void run_watch_tell_energy(struct run_watch *w);
 /* The share of the energy that has no source, as of the last call. */
 double run_watch_energy_share(const struct run_watch *w);

@@ -5,9 +5,9 @@
 
 #include "program/help.h"
 
-/* Runs the verb that argv[1] names, or what there is without one. `PROGRAM help
-   VERB` is the verb's --help. A word that is neither a verb nor a file but
-   close to a verb exits with EXIT_USAGE. */
+/* Runs the verb that argv[1] names, or the function for no verb. `PROGRAM help
+   VERB` is the verb's --help. A word that is neither a verb nor a file, but is
+   spelled like a verb, exits with EXIT_USAGE. */
 int verbs_run(const struct verbs *v, int argc, char **argv);
 
 #endif

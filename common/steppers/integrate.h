@@ -74,8 +74,8 @@ struct integrate_counts {
   size_t accepted, rejected;
 };
 
-/* A method of a problem's own, which knows more of it than the right-hand side;
-   engine is its state. */
+/* A method that belongs to a problem and uses more than its right-hand side;
+   engine is the method's state. */
 struct integrate_engine {
   /* As integrate_alloc; params are the problem's. */
   int (*alloc)(void **engine, const struct integrate_options *o, double t,
@@ -85,7 +85,8 @@ struct integrate_engine {
   int (*step)(void *engine, double stop, struct integrate_counts *counts);
   struct integrate_view (*view)(const void *engine);
   struct rkc_report (*report)(const void *engine);
-  /* Mends in y, an interpolation over the last step, what it knows better. */
+  /* y is an interpolation over the last step; puts in what the method knows
+     more precisely. */
   void (*at)(const void *engine, double t, double y[]);
 };
 
@@ -141,7 +142,7 @@ const double *integrate_derivative(const struct integrator *it);
    stiffness, GSL_ENOMEM. */
 int integrate_limits(const char *method, struct stiffness_limits *l);
 
-/* All of it. */
+/* Time, state and rates at once. */
 struct integrate_view integrate_view(const struct integrator *it);
 
 /* The state of the problem's own method, or NULL. */
@@ -151,8 +152,8 @@ const void *integrate_engine(const struct integrator *it);
 struct rkc_report integrate_rkc_report(const struct integrator *it);
 
 /* State at a time within the last step, by a cubic Hermite polynomial, or by
-   several where the problem's own method made parts of the step. Before
-   the first step the start is all there is. GSL_EDOM outside. */
+   several where the problem's own method divided the step. Before the first
+   step only the start is known. GSL_EDOM outside. */
 int integrate_at(const struct integrator *it, double t, double y[]);
 
 #endif
