@@ -34,7 +34,7 @@ static void put_point(FILE *out, double x, double y, double z) {
   }
 }
 
-/* Cubes, so many along the longest side. */
+/* Cubes; cells is their number along the longest side. */
 static void write_block(FILE *out, const double box[6], size_t cells) {
   static const struct {
     const char *name;

@@ -147,7 +147,8 @@ static void put_corners(FILE *out, const double a[3], const double b[3],
   put_facet(out, normal, corner);
 }
 
-/* A bridge as a prism of so many sides, from a centre to the other. */
+/* Facets of a bridge, a prism with this number of sides from one centre to the
+   other. */
 static size_t prism_facets(size_t sides) {
   return 4 * sides - 4;
 }

@@ -18,11 +18,11 @@
 static const double deep_overlap = 0.5;
 
 /* Soft walls let a centre pass and push it back, as long as there is energy for
-   that; with so large a share from nowhere there was none. */
+   that. If a larger share than this came from nowhere, the energy was false. */
 static const double gross_share = 0.1;
 
-/* So many power iterations, and a survey of the contacts, every so many
-   evaluations: below 1 % of the run each. */
+/* Power iterations, ITERATIONS every SAMPLE_EVERY evaluations, and a survey of
+   the contacts every SURVEY_EVERY: below 1 % of the run each. */
 enum { ITERATIONS = 4, SAMPLE_EVERY = 600, SURVEY_EVERY = 300 };
 
 struct stiff { /* of methods with a limit of stability */

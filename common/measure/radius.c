@@ -121,7 +121,7 @@ struct target {
   size_t volumes; /* made so far */
 };
 
-/* A root takes some so many volumes. */
+/* Volumes that a root takes, about. */
 enum { VOLUMES = 20 };
 
 /* Volume beyond the one that is wanted. */

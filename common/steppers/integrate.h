@@ -94,8 +94,8 @@ struct integrate_problem {
   gsl_odeiv2_system system;
   /* What standard control measures each unknown's error in: dimension. */
   const double *scale;
-  /* Rows of unknowns, each beginning with so many positions, for methods that
-     tell them from velocities. */
+  /* Unknowns of a row, and the number of positions that it begins with, for
+     methods that tell positions from velocities. */
   size_t row, positions;
   /* Longest step allowed at a state with the given derivative, or NULL. */
   double (*step_limit)(const double y[], const double dydt[], void *params);
