@@ -32,7 +32,8 @@ int main(int argc, char **argv) {
   struct option_spec options[] = {
       {.name = "scene", .type = OPTION_TEXT, .value = &s.scene_file,
        .unit = "- for standard input",
-       .help = "bed whose last frame is the start"},
+       .help = "bed whose last frame is the start; any format that analyze "
+               "reads"},
       {.name = "count", .type = OPTION_SIZE, .value = &s.fill.count,
        .least = 1, .most = 1e8, .help = "spheres", .parameter = true},
       POSITIVE("radius", &s.fill.radius, "m",
