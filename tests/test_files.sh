@@ -90,8 +90,11 @@ check 'a pipe with a name' cmp -s "$T/through" "$T/good"
 check 'it is still one' test -p "$T/fifo"
 # by a link of our own, for a mistake of a program that root tests
 ln -s /proc/self/fd/2 "$T/stderr"
+exec 3>"$T/err"
 timeout 20 "$B/settle" --quiet --count 2 --time 0.01 --stats "$T/stderr" \
-  >"$T/out" 2>"$T/err"
+  >"$T/out" 2>&3
+check "/dev/stderr is still the same file" test "$T/err" -ef /dev/fd/3
+exec 3>&-
 check "/dev/stderr is no place for a file beside it" grep -q "^t_end" "$T/err"
 write "$D/far"
 refused 'a directory' 1 'far: Is a directory'

@@ -102,6 +102,7 @@ chmod +x "$T/bin/gnuplot"
 for signal in INT TERM; do
   for verb in "draw --output $D/x.png" "movie --output $D/x.gif"; do
     rm -f "$T/pid"
+    start=$SECONDS
     # shellcheck disable=SC2086 # several words
     PATH=$T/bin:$PATH env --default-signal "$B/analyze" $verb "$T/bed" \
       >"$T/out" 2>"$T/err" &
@@ -114,6 +115,7 @@ for signal in INT TERM; do
       $((128 + $(number $signal)))
     check "$verb, $signal: gnuplot is ended" \
       waits eval '! kill -0 "$(cat "$T/pid")" 2>/dev/null'
+    check "$verb, $signal: soon" test $((SECONDS - start)) -lt 40
     check "$verb, $signal: nothing is left" test -z "$(ls "$D")$(ls "$TMPDIR")"
   done
 done
