@@ -7,8 +7,9 @@ SHELL := bash
 .SUFFIXES:
 
 # What may be set: CC AR CPPFLAGS CFLAGS LDFLAGS; OPENMP= builds without
-# threads; GSL_CFLAGS and GSL_LIBS for a GSL that neither pkg-config nor
-# gsl-config tells of; B, where products go; PREFIX and DESTDIR of install.
+# threads, which Debian's musl-gcc needs, as its libgomp is glibc's; GSL_CFLAGS
+# and GSL_LIBS for a GSL that neither pkg-config nor gsl-config tells of; B, where
+# products go; PREFIX and DESTDIR of install.
 # make has a CC of its own, cc, which is whatever the system prefers; the figures
 # were made by gcc.
 ifeq ($(origin CC),default)

@@ -61,36 +61,44 @@ static void add_facet(double (*facet)[9], const int face[3],
     }
 }
 
+/* Are these three corners at an edge's length, 2, from each other? */
+static bool is_face(const int face[3]) {
+  for (int k = 0; k < 3; k++) {
+    double x[3], y[3], d[3];
+    corner_at(face[k], x);
+    corner_at(face[(k + 1) % 3], y);
+    vec3_sub(x, y, d);
+    if (vec3_dot(d, d) >= 4.5)
+      return false;
+  }
+  return true;
+}
+
+/* The m^2 facets of a face. */
+static void divide_face(size_t m, const int face[3], double (*facet)[9]) {
+  for (size_t i = 0; i < m; i++)
+    for (size_t j = 0; i + j < m; j++) {
+      const size_t l = m - i - j; /* of the third corner, at least 1 */
+      const size_t up[3][3] = {{i, j, l}, {i + 1, j, l - 1}, {i, j + 1, l - 1}};
+      add_facet(facet++, face, up);
+      if (l < 2)
+        continue;
+      const size_t down[3][3] = {
+          {i + 1, j + 1, l - 2}, {i + 1, j, l - 1}, {i, j + 1, l - 1}};
+      add_facet(facet++, face, down);
+    }
+}
+
 /* The facets of the unit sphere, 20 m^2 rows of three corners. */
 static void make_facets(size_t m, double (*facet)[9]) {
-  size_t count = 0;
   for (int a = 0; a < 12; a++)
     for (int b = a + 1; b < 12; b++)
       for (int c = b + 1; c < 12; c++) {
-        /* the faces: any three corners at an edge's length, 2 */
         const int face[3] = {a, b, c};
-        bool near = true;
-        for (int k = 0; k < 3; k++) {
-          double x[3], y[3], d[3];
-          corner_at(face[k], x);
-          corner_at(face[(k + 1) % 3], y);
-          vec3_sub(x, y, d);
-          near = near && vec3_dot(d, d) < 4.5;
-        }
-        if (!near)
+        if (!is_face(face))
           continue;
-        for (size_t i = 0; i < m; i++)
-          for (size_t j = 0; i + j < m; j++) {
-            const size_t l = m - i - j; /* of the third corner, at least 1 */
-            const size_t up[3][3] = {
-                {i, j, l}, {i + 1, j, l - 1}, {i, j + 1, l - 1}};
-            add_facet(&facet[count++], face, up);
-            if (l < 2)
-              continue;
-            const size_t down[3][3] = {
-                {i + 1, j + 1, l - 2}, {i + 1, j, l - 1}, {i, j + 1, l - 1}};
-            add_facet(&facet[count++], face, down);
-          }
+        divide_face(m, face, facet);
+        facet += m * m;
       }
 }
 

@@ -54,7 +54,8 @@ check 'the links stay' test -L "$D/link" -a -L "$D/far/link"
 ln -s "$D/old" "$D/absolute"
 write "$D/absolute"
 written 'through a link from the root' "$D/old"
-(cd "$D" && timeout 20 "$OLDPWD/$B/analyze" export --format positions \
+bin=$(cd "$B" && pwd) # B may be a path from here or from the root
+(cd "$D" && timeout 20 "$bin/analyze" export --format positions \
   --quiet --output plain bed.csv 2>"$T/err")
 status=$?
 written 'a name without a directory' "$D/plain"
@@ -138,7 +139,7 @@ timeout 20 "${settle[@]}" --log "$D/x" --stats "$D/y" >"$T/out" 2>"$T/err"
 status=$?
 refused 'two outputs, one old file' 2 'expected another file'
 check 'it is as it was' test "$(cat "$D/x")" = old
-(cd "$D" && timeout 20 "$OLDPWD/${settle[0]}" "${settle[@]:1}" --log z \
+(cd "$D" && timeout 20 "$bin/settle" "${settle[@]:1}" --log z \
   --stats ../d/z >"$T/out" 2>"$T/err")
 status=$?
 refused 'two outputs, one new file by two paths' 2 'expected another file'

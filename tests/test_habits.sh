@@ -92,8 +92,9 @@ meant exprot export
 says 'a file that is not there' 1 'analyze: bed.tsv: No such file.*' \
   analyze bed.tsv
 "$B/settle" --quiet --count 2 --time 0 >"$T/contcts"
+bin=$(cd "$B" && pwd) # B may be a path from here or from the root
 check 'a file with such a name is one' test "$(cd "$T" &&
-  "$OLDPWD/$B/analyze" contcts 2>/dev/null | wc -l)" = 2
+  "$bin/analyze" contcts 2>/dev/null | wc -l)" = 2
 says 'a study' 2 "stability: 'drft': expected a verb; did you mean drift\? $try" \
   stability drft
 check_done

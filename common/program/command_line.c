@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "program/command_line.h"
 
+#include <assert.h>
 #include <getopt.h>
 #include <stdio.h>
 #include <string.h>
@@ -39,8 +40,7 @@ int options_parse(const struct program *p, int argc, char **argv) {
   size_t count = 0;
   program_begin(p->name, program_verb());
   for (; p->options[count].name; count++) {
-    if (count == MOST_OPTIONS)
-      die(EXIT_IO, "internal error: more than %d options", MOST_OPTIONS);
+    assert(count < MOST_OPTIONS);
     table[count] = (struct option){
         .name = p->options[count].name,
         .has_arg = p->options[count].type == OPTION_FLAG ? no_argument

@@ -94,6 +94,20 @@ const char *option_choice_help(const struct option_spec *o, size_t k) {
   return *(const char *const *)((const char *)choice(o, k) + o->choice_help);
 }
 
+static const char *set_choice(struct option_spec *o, const char *text) {
+  char list[600] = "one of";
+  const char *c;
+  for (size_t k = 0; (c = option_choice(o, k)); k++) {
+    if (!strcmp(c, text)) {
+      *(const char **)o->value = c;
+      return NULL;
+    }
+    strncat(list, " ", sizeof list - strlen(list) - 1);
+    strncat(list, c, sizeof list - strlen(list) - 1);
+  }
+  return expected("%s", list);
+}
+
 const char *option_set(struct option_spec *o, const char *text) {
   double x;
   switch (o->type) {
@@ -111,19 +125,8 @@ const char *option_set(struct option_spec *o, const char *text) {
     *(size_t *)o->value = (size_t)x;
     return NULL;
   case OPTION_TEXT:
-    if (o->choices) {
-      char list[600] = "one of";
-      const char *c;
-      for (size_t k = 0; (c = option_choice(o, k)); k++) {
-        if (!strcmp(c, text)) {
-          *(const char **)o->value = c;
-          return NULL;
-        }
-        strncat(list, " ", sizeof list - strlen(list) - 1);
-        strncat(list, c, sizeof list - strlen(list) - 1);
-      }
-      return expected("%s", list);
-    }
+    if (o->choices)
+      return set_choice(o, text);
     *(const char **)o->value = text;
     return NULL;
   case OPTION_LIST:
