@@ -30,6 +30,7 @@ static const struct format {
   bool binary;                       /* nothing for a terminal */
   bool many;                         /* frames in one file */
   bool series;                       /* ParaView's .pvd lists such files */
+  bool boxed;                        /* it is what the box holds */
 } formats[] = {
     {.name = "positions",
      .help = "x y z of the centres, tab-separated, nothing else",
@@ -70,29 +71,35 @@ static const struct format {
      .help = "voxels as VTK ImageData: ParaView",
      .takes = "scale offset " VOXELS,
      .write = write_vti,
+     .boxed = true,
      .binary = true,
      .series = true},
     {.name = "raw",
      .help = "voxels as bare numbers, x fastest, then y, then z",
      .takes = "scale offset " VOXELS,
      .write = write_raw,
+     .boxed = true,
      .binary = true},
     {.name = "mhd",
      .help = "MetaImage beside raw: ITK, VTK, ParaView, Fiji",
      .takes = "scale offset " VOXELS,
-     .write_files = write_mhd},
+     .write_files = write_mhd,
+     .boxed = true},
     {.name = "palabos",
      .help = "voxels as text, 0 or 1, z fastest, then y, then x",
      .takes = "scale offset box cells threads" SOLID,
-     .write = write_palabos},
+     .write = write_palabos,
+     .boxed = true},
     {.name = "geo",
      .help = "gmsh script: the pore, a box less spheres, named surfaces",
      .takes = "scale offset box bridge reach",
-     .write = write_geo},
+     .write = write_geo,
+     .boxed = true},
     {.name = "openfoam",
      .help = "folder for blockMesh and snappyHexMesh",
      .takes = "scale offset box cells facets bridge reach",
      .write_files = write_openfoam,
+     .boxed = true,
      .cells = 40,
      .cells_along = true},
     {.name = "freezethaw",
@@ -114,6 +121,7 @@ struct request {
   const char *output; /* NULL: standard output */
   struct write_options write;
   struct shape_options shape;
+  struct box_watch *watch;
   bool all, chosen;
   size_t frame; /* the one chosen */
 };
@@ -196,6 +204,9 @@ static void write_one(FILE *out, const char *name, const struct request *q,
                       const struct frames *frames, const struct bed *b,
                       size_t number, bool first, struct shape *s) {
   shape_make(s, &q->shape, frames, b);
+  if (q->format->boxed)
+    box_watch_see(q->watch, frames, b, !q->shape.box_given, 1,
+                  (const double(*)[6])s->source_box);
   struct write_frame f = {
       .shape = s, .bed = &s->bed, .number = number, .first = first};
   long least = 1;
@@ -470,7 +481,10 @@ int verb_export(int argc, char **argv) {
 
   struct frames frames;
   frames_open(&frames, &input, argc, argv, operand);
+  struct box_watch watch = {0};
+  q.watch = &watch;
   export(&q, &frames);
+  box_watch_end(&watch);
   frames_close(&frames);
   return EXIT_DONE;
 }

@@ -102,7 +102,7 @@ static void spheres_span(const struct bed *b, double span[6]) {
 static const double much_wider = 0.1;
 
 static const char *box_text(const double box[6], char *text, size_t size) {
-  snprintf(text, size, "%.6g,%.6g,%.6g,%.6g,%.6g,%.6g", box[0], box[1], box[2],
+  snprintf(text, size, "%.10g,%.10g,%.10g,%.10g,%.10g,%.10g", box[0], box[1], box[2],
            box[3], box[4], box[5]);
   return text;
 }
@@ -131,8 +131,9 @@ void box_watch_see(struct box_watch *w, const struct frames *f,
                    const double (*boxes)[6]) {
   if (f->first) {
     box_watch_end(w);
-    *w = (struct box_watch){.name = f->name};
+    *w = (struct box_watch){0};
   }
+  w->name = f->name;
   if (b->n == 0)
     return;
   double unit[6];

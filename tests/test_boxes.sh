@@ -88,6 +88,27 @@ for verb in fraction profile contacts gr order rest 'radius --report'; do
   run $verb --box 7,8,-3,-2,2,3 "$T/far"
   silent "$verb, the box of the bed"
 done
+# an image of nothing; csv is of the spheres, wherever they are
+warned() { # NAME PATTERN: one such line among others
+  check "$1: '$2'" test "$(grep -Ec "^analyze: $2" "$T/err")" = 1
+}
+export() { # FORMAT FILE OPTION...
+  run export --format "$1" --output "$T/of.$1" "${@:3}" "$2"
+  check "export $1: status" test "$status" = 0
+}
+for format in 'raw --cells 4' 'vti --cells 4' 'palabos --cells 4' geo \
+  'openfoam --cells 4' 'mhd --cells 4'; do
+  export ${format%% *} "$T/far" $(cut -s -d ' ' -f 2- <<<"$format") --quiet
+  warned "export $format, elsewhere" "$T/far: no sphere is in the box 0,1,.* $span"
+done
+rm -r "$T/of.openfoam"
+export raw "$T/far" --cells 4 --box 7,8,-3,-2,2,3 --offset=-7,3,-2
+check 'export, the box of the bed' test "$(grep -c 'no sphere' "$T/err")" = 0
+export csv "$T/far"
+check 'export csv: no remark' test "$(grep -c 'no sphere' "$T/err")" = 0
+printf 'x,y,z,r,t\n1e6,0,0,1,0\n1000000.5,0,0,1,1\n' >"$T/frames"
+export raw "$T/frames" --cells 4 # the last of two frames, and its digits
+warned 'far away' "$T/frames: no sphere .*span 999999\.5,1000001\.5,-1,1,-1,1 m"
 run --boxes <(echo 0 1 0 1 0 1; echo 7 8 -3 -2 2 3) "$T/far"
 silent 'one of several boxes'
 # one that reaches into the unit cube from outside; grains in its corner
