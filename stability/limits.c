@@ -11,7 +11,7 @@
 
    Theory is where |R(z)| of the linear test equation leaves 1, R by the stepper
    itself (stepper.h); known values of the literature are in
-   tests/test_stability.sh. */
+   tests/figures_stability.sh. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -110,4 +110,16 @@ check 'every room has its objects' test \
 silent 'no SPDX line' "$(grep -L -m 1 SPDX-License-Identifier Makefile .ci/run \
   $(find {common,analyze,bounce,settle,precision,stability,plots,tests}/ -name \
     '*.[ch]' -o -name '*.sh' -o -name '*.awk' -o -name '*.gp' -o -name '*.mk'))"
+
+# Headers say where they are tested.
+missing() { # FILE...: tests that are named and not there
+  grep -ohE 'tests/[a-z_0-9]+\.(c|sh)' "$@" | sort -u | while read -r test; do
+    [[ -e $test ]] || echo "$test"
+  done
+}
+silent 'a test that is named is there' "$(missing README.md CONTRIBUTING.md \
+  docs/*.md Makefile {analyze,bounce,settle,precision,stability}/*.[ch] \
+  common/*/*.[ch])"
+echo '/* Tested in tests/test_none.c. */' >"$T/h.h"
+check 'one that is not is found' test "$(missing "$T/h.h")" = tests/test_none.c
 check_done
