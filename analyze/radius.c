@@ -98,7 +98,7 @@ static void print_report(struct table *table, const struct settings *s,
                                       last};
   for (enum choice c = 0; c < CHOICES; c++) {
     /* the root that a fraction is takes most of the time */
-    const double from = 0.05 * c, found = c == FRACTION ? 0.95 : from;
+    const double from = 0.05 * (int)c, found = c == FRACTION ? 0.95 : from;
     const double r =
         choose(s, (struct frames_part){f, from, found}, c, walls, b, nominal);
     table_number(table, b->t);
