@@ -52,7 +52,7 @@ awk 'BEGIN {
   n = 10; m = 2; r = 0.1; g = 9.81
   for (f = 0; f < 3; f++) {
     if (f) print "\n"
-    else print "# format=bed-1\n# restitution=0.4\n# wall=0 0 0 0 0 -1\n" \
+    else print "# format=bed-1\n# f0=10\n# restitution=0.4\n# wall=0 0 0 0 0 -1\n" \
       "# wall=0 0 0 -1 0 0"
     printf "# t=%g\n", f * 0.2
     print "id\tx\ty\tz\tr\tm\tvx\tvy\tvz"
