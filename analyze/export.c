@@ -31,6 +31,7 @@ static const struct format {
   bool many;                         /* frames in one file */
   bool series;                       /* ParaView's .pvd lists such files */
   bool boxed;                        /* it is what the box holds */
+  bool full;                         /* is nothing without spheres */
 } formats[] = {
     {.name = "positions",
      .help = "x y z of the centres, tab-separated, nothing else",
@@ -110,7 +111,8 @@ static const struct format {
     {.name = "bed",
      .help = "our own format",
      .takes = "box",
-     .write = write_bed},
+     .write = write_bed,
+     .full = true},
     {0}};
 static const char *const frame_choices[] = {"last", "all", NULL};
 static const char *const type_names[] = {"float64", "float32", NULL};
@@ -203,6 +205,8 @@ static void take_cells(const struct option_list *list, size_t cells[3]) {
 static void write_one(FILE *out, const char *name, const struct request *q,
                       const struct frames *frames, const struct bed *b,
                       size_t number, bool first, struct shape *s) {
+  if (q->format->full && b->n == 0)
+    frame_refuse(frames, b, "no spheres, which a bed has");
   shape_make(s, &q->shape, frames, b);
   if (q->format->boxed)
     box_watch_see(q->watch, frames, b, !q->shape.box_given, 1,
@@ -321,16 +325,19 @@ static void write_series(const struct request *q, struct frames *frames) {
   free(list_name);
 }
 
-/* The one frame chosen, or the last; how many were read. */
+/* The one frame chosen, or the last that has spheres if any has; its number. */
 static size_t read_one(const struct request *q, struct frames *frames,
                        struct bed *b) {
   struct bed next = {0};
-  size_t count = 0;
+  size_t count = 0, number = 0;
   while (frames_next(frames, &next)) {
-    const struct bed swap = *b;
-    *b = next;
-    next = swap;
-    if (++count == q->frame + 1 && q->chosen)
+    if (q->chosen || next.n > 0 || b->n == 0) {
+      const struct bed swap = *b;
+      *b = next;
+      next = swap;
+      number = count;
+    }
+    if (count++ == q->frame && q->chosen)
       break;
   }
   bed_free(&next);
@@ -339,7 +346,7 @@ static size_t read_one(const struct request *q, struct frames *frames,
   if (q->chosen && count <= q->frame)
     die(EXIT_INPUT, "--frame %zu: there are %zu, numbered from 0", q->frame,
         count);
-  return count;
+  return number;
 }
 
 static void write_stream(FILE *out, const struct request *q,
@@ -351,8 +358,8 @@ static void write_stream(FILE *out, const struct request *q,
       write_one(out, q->output, q, frames, &bed, k, k == 0, shape);
     }
   } else {
-    const size_t count = read_one(q, frames, &bed);
-    write_one(out, q->output, q, frames, &bed, count - 1, true, shape);
+    const size_t number = read_one(q, frames, &bed);
+    write_one(out, q->output, q, frames, &bed, number, true, shape);
   }
   bed_free(&bed);
 }

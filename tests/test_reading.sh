@@ -129,6 +129,20 @@ for f in empty-first.dump empty-first.xyz; do
   done
 done
 
+# one frame is the last one that has spheres, for export as for draw and settle
+reads empty-last.xyz '0 1;1 1;2 0'
+"$B/analyze" export --format positions $cases/empty-last.xyz >"$T/out" 2>/dev/null
+check 'empty-last.xyz: positions' cmp -s "$T/out" <(printf '0\t0\t3\n')
+"$B/analyze" export --format bed $cases/empty-last.xyz 2>/dev/null |
+  "$B/analyze" $box >"$T/out" 2>/dev/null
+check 'empty-last.xyz: a bed that is one' awk -v a=$a '
+  NR == 2 {good = $1 == 1 && $3 / a - 1 < 1e-12 && 1 - $3 / a < 1e-12}
+  END {exit !good || NR != 2}' "$T/out"
+"$B/analyze" export --format bed --frame 2 $cases/empty-last.xyz >"$T/out" \
+  2>"$T/err"
+check "a bed of no spheres: status $?" test $? = 3 -a ! -s "$T/out" -a \
+  "$(grep -c 't=2: no spheres' "$T/err")" = 1
+
 # --- data files of LAMMPS -----------------------------------------------------
 reads sphere.data '0 2'
 "$B/analyze" export --format csv $cases/sphere.data >"$T/out"
