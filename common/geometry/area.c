@@ -26,12 +26,23 @@
    elliptic integrals,
 
      int_0^t sqrt(q) dt = 2 H E(t/2, 1/k)                               k > 1,
-                        = 2 H (E(x, k) - (1 - k^2) F(x, k)) / k,
-                          sin x = sin(t/2) / k                          k < 1.
+                        = 2 H k (F(x, k) - D(x, k)),
+                          sin x = sin(t/2) / k                          k < 1,
 
-   Two planes meet where a sine wave is zero, a plane and the sphere at a root
-   of a quartic in tan(t/2). Where bounds meet they are equal, so the error of
-   such an azimuth enters squared, and one too many costs time only. */
+   where F - D, by Carlson's R_F and R_D, is what E - (1 - k^2) F loses the
+   digits of when k is small. Two planes meet where a sine wave is zero, a plane
+   and the sphere at a root of a quartic in tan(t/2).
+
+   Those azimuths only say where to look. A plane that touches the shell, or all
+   but holds the axis, makes roots that coincide or coefficients that are mere
+   rounding; so the bounds in force are looked up there and half-way between, and
+   where they differ the way is halved until each change is found. Bounds are
+   equal where they change, so an error of that azimuth enters squared, and a
+   look too many costs time only.
+
+   Rounding. Of a sphere small beside the shell, a - R, and of a bound its value
+   at t = 0, A + C, have the digits; both come from differences that are exact or
+   nearly so, and the rest goes with 1 - cos t = 2 sin^2(t/2). */
 #include "geometry/area.h"
 
 #include <assert.h>
