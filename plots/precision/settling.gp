@@ -80,10 +80,14 @@ do for [p=1:3] {
         x(m) : NaN):(above(column("y"))):(strcol("setting")) with labels right \
         offset -1.2,-0.5 font ",16" \
         tc rgb method_colour(m) notitle, \
-      for [m in left && p == 3 ? methods : ""] ARG1 using (is(m, "point") || \
+      for [m in left && p == 3 ? "verlet" : ""] ARG1 using (is(m, "point") || \
         is(m, "limit") ? x(m) : NaN):(above(column("high"))): \
         (strcol("setting")) with labels left rotate by 90 offset 0,0.4 \
         font ",16" tc rgb method_colour(m) notitle, \
+      for [m in left && p == 3 ? "rkc" : ""] ARG1 using \
+        ((is(m, "point") || is(m, "limit")) && column("default") == 0 ? \
+        x(m) : NaN):(0.25*column("y")):(strcol("setting")) with labels right \
+        rotate by 90 font ",16" tc rgb method_colour(m) notitle, \
       for [m in left ? "rkc" : ""] ARG1 using (column("default") == 1 && \
         (is(m, "point") || is(m, "limit")) ? x(m) : NaN): \
         (above(column("y"))) with points pt 6 ps 2.6*symbol lw line \

@@ -13,14 +13,15 @@ EMBEDDED_TOLERANCES := $(if $(QUICK),0.1,10 1 0.1)
 RKC_TOLERANCES := $(if $(QUICK),0.1 5e-4,1 0.1 0.01 1e-3 5e-4 1e-4)
 VERLET_STEPS := $(if $(QUICK),1e-3 2.5e-5,1e-3 4e-4 2e-4 1e-4 5e-5 2.5e-5)
 
+# Tolerances of a method in order, so that charts join them.
 SETTLING_FULL := \
-  $(call bed_runs,$(FULL)/method-merson/tol-0.01,1,$(BED_MERSON)) \
   $(foreach t,$(RKC_TOLERANCES),\
     $(call bed_runs,$(FULL)/method-rkc/tol-$(t),3,$(BED_RKC))) \
   $(foreach h,$(VERLET_STEPS),\
     $(call bed_runs,$(FULL)/method-verlet/step-$(h),3,$(BED_VERLET))) \
   $(foreach m,merson dopri5 rkf45,$(foreach t,$(EMBEDDED_TOLERANCES),\
-    $(call bed_runs,$(FULL)/method-$(m)/tol-$(t),1,$(BED_EMBEDDED))))
+    $(call bed_runs,$(FULL)/method-$(m)/tol-$(t),1,$(BED_EMBEDDED)))) \
+  $(call bed_runs,$(FULL)/method-merson/tol-0.01,1,$(BED_MERSON))
 SETTLING_PLAIN := \
   $(foreach m,merson dopri5 rkf45,$(foreach t,$(EMBEDDED_TOLERANCES),\
     $(call bed_runs,$(PLAIN)/method-$(m)/tol-$(t),3,$(BED_BASIC)))) \

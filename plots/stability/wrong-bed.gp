@@ -41,6 +41,9 @@ stats ARG1 using (bar(1)) nooutput
 half = STATS_max > 0.012 ? 1.05*STATS_max : 0.013
 stats ARG1 using (bar(0)) nooutput
 high = STATS_max > 0.05 ? 1.05*STATS_max : 0.055
+stats ARG1 using (strcol("status") eq "ok" && strcol("step") ne "-" ? \
+  column("difference") - ci(0) : NaN) nooutput
+low = STATS_min < -0.005 ? 1.05*STATS_min : -0.005
 
 set logscale x
 set lmargin at screen 0.2
@@ -50,7 +53,7 @@ set multiplot
 set tmargin at screen 0.98
 set bmargin at screen 0.68
 set xrange [1e-5:2e-3]
-set yrange [*<-0.005:high]
+set yrange [low:high]
 set ytics autofreq
 set format x ""
 set ylabel "union less that of\na sharp run" offset -0.5,0
@@ -77,7 +80,7 @@ set arrow 1 from graph 0,first 0 to graph 1,first 0 nohead lw thin lc rgb black
 set tmargin at screen 0.42
 set bmargin at screen 0.205
 set yrange [-half:half]
-set ytics autofreq
+if (half < 0.03) { set ytics 0.01 } else { set ytics autofreq }
 set format y "%h"
 set xtics 10
 set ylabel "union less that of\na sharp run" offset -0.5,0
