@@ -60,6 +60,64 @@ static struct energies energies(const struct frames *f, const struct scene *s,
   return e;
 }
 
+/* What is kept from one frame to the next of its file. */
+struct seen {
+  struct rest_watch watch;
+  double t, share; /* of the frame before */
+};
+
+static void see_first(struct seen *seen, const struct scene *s,
+                      const struct bed *b) {
+  const struct similarity spheres =
+      similarity_of(gsl_stats_mean(b->r, 1, b->n),
+                    gsl_stats_mean(b->m, 1, b->n), vec3_norm(s->gravity));
+  seen->watch = rest_watch_begin(b->t, &spheres);
+  seen->t = seen->share = GSL_NAN;
+}
+
+/* Solid fraction of the box that was given, or of the frame's own. */
+static double solid_share(struct frames *f, const struct option_list *given,
+                          const struct bed *b, struct box_watch *boxes) {
+  double united, box[6];
+  frame_choose_box(f, given, box);
+  box_watch_see(boxes, f, b, !given->count, 1, (const double(*)[6])box);
+  frame_check_box(f, b, box);
+  struct frames_part part = {f, 0, 0.7};
+  const struct observer told = frames_observer(&part);
+  frame_check(f, b, volume_union_told(b->n, b->x, b->r, box, &told, &united));
+  return united / box_volume(box);
+}
+
+static void print_frame(struct table *table, struct frames *f,
+                        const struct option_list *given, const struct bed *b,
+                        struct box_watch *boxes, struct seen *seen) {
+  struct scene scene = frame_scene(f, b);
+  if (f->first)
+    frame_warn_rewritten(f);
+  const double share = solid_share(f, given, b, boxes);
+  const struct energies e = energies(f, &scene, b);
+  const double net = unbalanced(f, &scene, b);
+  if (f->first)
+    see_first(seen, &scene, b);
+  const double vmin = scene.law.vmin, passed = b->t - seen->t;
+  const bool at_rest = rest_watch_see(&seen->watch, b->t, e.fastest, vmin);
+  scene_free(&scene);
+  table_frame(table, TABLE_ROWS,
+              "t\tkinetic\tpotential\tunbalanced\tfastest\tunion\trate\t"
+              "at_rest");
+  table_number(table, b->t);
+  table_number(table, e.kinetic);
+  table_number(table, e.potential);
+  table_number(table, net);
+  table_number(table, e.fastest / vmin);
+  table_number(table, share);
+  table_number(table, passed != 0 ? (share - seen->share) / passed : GSL_NAN);
+  table_number(table, at_rest ? 1 : seen->watch.moved ? 0 : GSL_NAN);
+  table_end_row(table);
+  seen->t = b->t;
+  seen->share = share;
+}
+
 int verb_rest(int argc, char **argv) {
   struct option_list given = {0};
   struct frames_options input = {.many = true, .scene = true};
@@ -98,55 +156,13 @@ int verb_rest(int argc, char **argv) {
 
   struct frames frames;
   struct bed bed = {0};
-  struct rest_watch watch = {0};
+  struct seen seen = {0};
   struct box_watch boxes = {0};
-  double last_t = GSL_NAN, last_union = GSL_NAN;
   frames_open(&frames, &input, argc, argv, operand);
   struct table table;
   table_open(&table, &frames, mean);
-  while (frames_next(&frames, &bed)) {
-    struct scene scene = frame_scene(&frames, &bed);
-    if (frames.first)
-      frame_warn_rewritten(&frames);
-    double united, box[6];
-    frame_choose_box(&frames, &given, box);
-    const double volume = box_volume(box);
-    box_watch_see(&boxes, &frames, &bed, !given.count, 1,
-                  (const double(*)[6])box);
-    frame_check_box(&frames, &bed, box);
-    struct frames_part part = {&frames, 0, 0.7};
-    const struct observer told = frames_observer(&part);
-    frame_check(&frames, &bed,
-                volume_union_told(bed.n, bed.x, bed.r, box, &told, &united));
-    const struct energies e = energies(&frames, &scene, &bed);
-    const double net = unbalanced(&frames, &scene, &bed);
-    if (frames.first) {
-      const struct similarity spheres = similarity_of(
-          gsl_stats_mean(bed.r, 1, bed.n), gsl_stats_mean(bed.m, 1, bed.n),
-          vec3_norm(scene.gravity));
-      watch = rest_watch_begin(bed.t, &spheres);
-      last_t = last_union = GSL_NAN;
-    }
-    const bool at_rest =
-        rest_watch_see(&watch, bed.t, e.fastest, scene.law.vmin);
-    const double passed = bed.t - last_t;
-    table_frame(&table, TABLE_ROWS,
-                "t\tkinetic\tpotential\tunbalanced\tfastest\tunion\trate\t"
-                "at_rest");
-    table_number(&table, bed.t);
-    table_number(&table, e.kinetic);
-    table_number(&table, e.potential);
-    table_number(&table, net);
-    table_number(&table, e.fastest / scene.law.vmin);
-    table_number(&table, united / volume);
-    table_number(&table, passed != 0 ? (united / volume - last_union) / passed
-                                     : GSL_NAN);
-    table_number(&table, at_rest ? 1 : watch.moved ? 0 : GSL_NAN);
-    table_end_row(&table);
-    last_t = bed.t;
-    last_union = united / volume;
-    scene_free(&scene);
-  }
+  while (frames_next(&frames, &bed))
+    print_frame(&table, &frames, &given, &bed, &boxes, &seen);
   table_close(&table);
   box_watch_end(&boxes);
   frames_close(&frames);
