@@ -526,11 +526,8 @@ static void test_shell_small(void) {
   }
 }
 
-/* Sets whose numbers are multiples of 1/4: spheres that touch each other, the
-   shell and its ends, or are one, planes that touch the shell or hold its axis.
-   Against the plainest oracle, which errs by no more than a few of its steps
-   where segments end: with N azimuths by some (1/N)^(3/2) of the mantle, and
-   more of them are taken where they do not agree. */
+/* The plainest oracle: azimuths, and a few of their steps for its error where
+   segments end. */
 static void sampled_shell(size_t n, const double *x, const double *r,
                           const struct area_shell *s, size_t azimuths,
                           double *sum, double *both) {
@@ -559,6 +556,38 @@ static void sampled_shell(size_t n, const double *x, const double *r,
   *both *= 2 * M_PI * s->radius / (double)azimuths;
 }
 
+/* Between ends that are close together a strip is left, which has the rounding
+   of the whole sphere: its height goes down with the distance of the ends, and
+   it is never more than the mantle. */
+static void test_shell_thin(void) {
+  gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+  for (unsigned long seed = 1; seed <= 300; seed++) {
+    gsl_rng_set(rng, seed);
+    const size_t n = 20;
+    double x[3 * MOST], r[MOST], sum = GSL_NAN, both = GSL_NAN;
+    random_spheres(rng, n, 0.4, x, r);
+    const double z = uniform(rng, 0, 1), thin = pow(10, uniform(rng, -16, -3));
+    const struct area_shell shell = {
+        {0.5, 0.5}, uniform(rng, 0.02, 0.6), {z, z + thin}};
+    const double height = shell.z[1] - shell.z[0];
+    CHECK(area_shell_covered(n, x, r, &shell, &sum, &both) == GSL_SUCCESS);
+    const double mantle = 2 * M_PI * shell.radius * height;
+    CHECK(both <= sum && both <= mantle && both >= 0);
+    double plain_sum, plain;
+    sampled_shell(n, x, r, &shell, 4000, &plain_sum, &plain);
+    const double tol = 1e-2 * mantle + ULPS(64) * (double)n;
+    if (!(CHECK_CLOSE(both, plain, tol) &
+          CHECK_CLOSE(sum, plain_sum, tol * (double)n)))
+      fprintf(stderr, "  seed %lu\n", seed);
+  }
+  gsl_rng_free(rng);
+}
+
+/* Sets whose numbers are multiples of 1/4: spheres that touch each other, the
+   shell and its ends, or are one, planes that touch the shell or hold its axis.
+   Against the plainest oracle, which errs by no more than a few of its steps
+   where segments end: with N azimuths by some (1/N)^(3/2) of the mantle, and
+   more of them are taken where they do not agree. */
 static double quarters(gsl_rng *rng, int from, int to) {
   return 0.25 *
          (from + (int)gsl_rng_uniform_int(rng, (unsigned long)(to - from + 1)));
@@ -654,6 +683,7 @@ int main(void) {
   test_shell_random();
   test_shell_identities();
   test_shell_small();
+  test_shell_thin();
   test_shell_degenerate();
   test_shell_volume();
   return check_done();

@@ -35,14 +35,14 @@
 
    Those azimuths only say where to look. A plane that touches the shell, or all
    but holds the axis, makes roots that coincide or coefficients that are mere
-   rounding; so the bounds in force are looked up there and half-way between, and
-   where they differ the way is halved until each change is found. Bounds are
-   equal where they change, so an error of that azimuth enters squared, and a
-   look too many costs time only.
+   rounding; so the bounds in force are looked up there and half-way between,
+   and where they differ the way is halved until each change is found. Bounds
+   are equal where they change, so an error of that azimuth enters squared, and
+   a look too many costs time only.
 
    Rounding. Of a sphere small beside the shell, a - R, and of a bound its value
-   at t = 0, A + C, have the digits; both come from differences that are exact or
-   nearly so, and the rest goes with 1 - cos t = 2 sin^2(t/2). */
+   at t = 0, A + C, have the digits; both come from differences that are exact
+   or nearly so, and the rest goes with 1 - cos t = 2 sin^2(t/2). */
 #include "geometry/area.h"
 
 #include <assert.h>
@@ -530,11 +530,16 @@ static bool bound_partners(struct shell_work *w, const struct patch *p,
   return true;
 }
 
-/* Adds what sphere i has of the shell to *sum, and to *united what of that is
-   in its power cell. */
+/* Areas so far: of the spheres by themselves, of what they have in their power
+   cells; and rounding: more than what the two may be wrong by. */
+struct covered {
+  double sum, united, rounding;
+};
+
+/* Adds what sphere i has of the shell. */
 static int add_patch(const struct power *cells, size_t i,
                      const struct area_shell *shell, struct shell_work *w,
-                     double *sum, double *united) {
+                     struct covered *all) {
   struct patch p;
   const bool reaches = patch_of(&p, cells->x + 3 * i, cells->r[i], shell);
   assert(reaches);
@@ -547,11 +552,13 @@ static int add_patch(const struct power *cells, size_t i,
   if (status != GSL_SUCCESS)
     return status;
   const double mantle = 2 * M_PI * shell->radius * (shell->z[1] - shell->z[0]);
-  assert(!(alone > mantle * (1 + 1e-9)));
-  assert(!(own > alone + 1e-9 * p.height * p.end * p.shell));
+  /* of terms of its own size, however little is left of them */
+  const double rounding = 1e-9 * p.height * p.end * p.shell;
+  assert(!(alone > mantle + rounding) && !(own > alone + rounding));
   alone = fmin(alone, mantle);
-  *sum += alone;
-  *united += fmin(own, alone);
+  all->sum += alone;
+  all->united += fmin(own, alone);
+  all->rounding += rounding;
   return GSL_SUCCESS;
 }
 
@@ -595,16 +602,16 @@ int area_shell_covered(size_t n, const double *x, const double *r,
   int status = power_alloc(&cells, 3, n, x, r, patch_reaches, shell);
   if (status != GSL_SUCCESS)
     return status;
-  double alone = 0, own = 0;
+  struct covered all = {0, 0, 0};
   status = shell_work_alloc(&w, cells->most);
   for (size_t i = 0; i < cells->n && status == GSL_SUCCESS; i++)
-    status = add_patch(cells, i, shell, w, &alone, &own);
+    status = add_patch(cells, i, shell, w, &all);
   if (status == GSL_SUCCESS) {
     const double mantle =
         2 * M_PI * shell->radius * (shell->z[1] - shell->z[0]);
-    assert(!(own > mantle * (1 + 1e-9)));
-    *sum = alone;
-    *united = own < mantle ? own : mantle;
+    assert(!(all.united > mantle + all.rounding));
+    *sum = all.sum;
+    *united = all.united < mantle ? all.united : mantle;
   }
   shell_work_free(w);
   power_free(cells);
