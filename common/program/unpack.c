@@ -79,9 +79,11 @@ static _Noreturn void feed(FILE *in, int out) {
   _exit(ferror(in) ? 1 : 0);
 }
 
-/* The unpacking process; what keeps it from running goes to failed. */
+/* The unpacking process; what keeps it from running goes to failed. Its own
+   words on a broken file would stand around the one line that says so. */
 static _Noreturn void run(const char *program, int in, int out, int failed) {
-  if (move(in, STDIN_FILENO) == 0 && move(out, STDOUT_FILENO) == 0)
+  if (move(in, STDIN_FILENO) == 0 && move(out, STDOUT_FILENO) == 0 &&
+      move(open("/dev/null", O_WRONLY), STDERR_FILENO) == 0)
     execlp(program, program, "-dc", (char *)NULL);
   const int error = errno;
   if (write(failed, &error, sizeof error) < 0)
@@ -149,5 +151,6 @@ void unpack_close(struct unpack *u) {
   if (u->packed != stdin)
     fclose(u->packed);
   if (whole && status != 0)
-    die(EXIT_INPUT, "%s: %s cannot unpack it whole", u->name, u->program);
+    die(EXIT_INPUT, "%s: %s cannot unpack it whole: it is cut short or "
+        "damaged", u->name, u->program);
 }
