@@ -12,6 +12,7 @@
    the mass 2^j, these are powers of two, and so bits stay. */
 struct similarity {
   double length, time, mass;
+  double squared_time; /* length by gravity: no root is taken and squared */
 };
 
 /* Powers of the units in a quantity: {1, -1, 0} is a speed. */
