@@ -346,6 +346,21 @@ void picture_draw(struct picture *p, const char *name, const char *output) {
   free(script);
 }
 
+/* As the program's end would do. */
+static void remove_scratch(struct picture *p) {
+  while (p->files) {
+    struct scratch_file *f = p->files;
+    p->files = f->next;
+    unlink(f->path);
+    litter_forget(f->path);
+    free(f->path);
+    free(f);
+  }
+  rmdir(p->scratch);
+  litter_forget(p->scratch);
+  free(p->scratch);
+}
+
 void picture_deliver(struct picture *p, const char *path) {
   FILE *in = fopen(path, "rb");
   if (!in)
@@ -362,4 +377,5 @@ void picture_deliver(struct picture *p, const char *path) {
     output_commit(&p->file);
   else
     finish_output();
+  remove_scratch(p);
 }

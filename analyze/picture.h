@@ -50,7 +50,7 @@ extern const struct picture_color picture_colors[];
    progress. */
 void picture_begin(struct picture *p, const char *output, bool quiet);
 
-/* A path in the scratch directory, which lives as long as the program. */
+/* A path in the scratch directory, until picture_deliver. */
 const char *picture_path(struct picture *p, const char *name);
 
 /* Takes a frame into the ranges of box and colours, and writes it, as far as
@@ -75,7 +75,7 @@ char *picture_script(const char *name);
 /* Whether a name has this ending. */
 bool ends_in(const char *name, const char *ending);
 
-/* Copies a finished file to where it is wanted. */
+/* Copies a finished file to where it is wanted, and ends the picture. */
 void picture_deliver(struct picture *p, const char *path);
 
 #endif
