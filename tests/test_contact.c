@@ -17,7 +17,7 @@ static const double rounding = 8 * DBL_EPSILON;
 
 static void vector(gsl_rng *rng, double length, double v[3]) {
   gsl_ran_dir_3d(rng, &v[0], &v[1], &v[2]);
-  for (int k = 0; k < 3; k++)
+  for (size_t k = 0; k < 3; k++)
     v[k] *= length;
 }
 
@@ -108,7 +108,7 @@ static void test_limiter(gsl_rng *rng) {
 /* The unit vector of x and its length. */
 static double normal_of(const double x[3], double n[3]) {
   const double d = vec3_norm(x);
-  for (int k = 0; k < 3; k++)
+  for (size_t k = 0; k < 3; k++)
     n[k] = x[k] / d;
   return d;
 }
@@ -123,14 +123,14 @@ static void test_pair(gsl_rng *rng) {
     vector(rng, 2 * r + uniform(rng, -0.05, 0.05), x);
     vector(rng, pow(10, uniform(rng, -4, 1)), v);
     vector(rng, pow(10, uniform(rng, -4, 1)) / r, w);
-    for (int k = 0; k < 3; k++)
+    for (size_t k = 0; k < 3; k++)
       rw[k] = r * w[k];
     const double d = normal_of(x, n), size = vec3_norm(v) + vec3_norm(rw);
     const double rate = contact_tangent(n, v, rw, t);
     CHECK_CLOSE(rate, vec3_dot(x, v) / d, rounding * size); /* (2.2) */
     vec3_cross(w, x, wxx);
     double slip[3], largest = 0;
-    for (int k = 0; k < 3; k++) { /* (2.7) */
+    for (size_t k = 0; k < 3; k++) { /* (2.7) */
       slip[k] = v[k] - rate / d * x[k] - r / d * wxx[k];
       largest = fmax(largest, fabs(slip[k] - t[k]));
     }
@@ -164,7 +164,7 @@ static void test_wall(gsl_rng *rng) {
     vector(rng, 1, outward);
     vector(rng, pow(10, uniform(rng, -4, 1)), v);
     vector(rng, pow(10, uniform(rng, -4, 1)) / r, w);
-    for (int k = 0; k < 3; k++) {
+    for (size_t k = 0; k < 3; k++) {
       n[k] = -outward[k];
       rw[k] = r * w[k];
     }
@@ -173,7 +173,7 @@ static void test_wall(gsl_rng *rng) {
     const double vn = vec3_dot(v, outward);
     vec3_cross(w, outward, wxn);
     double largest = 0;
-    for (int k = 0; k < 3; k++) /* (2.10) */
+    for (size_t k = 0; k < 3; k++) /* (2.10) */
       largest = fmax(largest, fabs(v[k] - vn * outward[k] + r * wxn[k] - t[k]));
     CHECK_CLOSE(largest, 0, 4 * rounding * size);
     /* (2.5): F rho[v.N], along -N */
@@ -192,7 +192,7 @@ static void test_stiffness(gsl_rng *rng) {
     const double h = 1e-5 * c.vmin;
     double u[3], low[3], high[3], f_low[3], f_high[3];
     vector(rng, 1, u);
-    for (int k = 0; k < 3; k++) {
+    for (size_t k = 0; k < 3; k++) {
       low[k] = (0.5 * c.vmin - h) * u[k];
       high[k] = (0.5 * c.vmin + h) * u[k];
     }

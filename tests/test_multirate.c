@@ -66,7 +66,7 @@ static struct sample cluster(enum scene_model model, size_t side,
   weightless(&s);
   for (size_t i = 0; i < s.bed.n; i++) {
     const size_t at[3] = {i % side, i / side % side, i / side / side};
-    for (int k = 0; k < 3; k++) {
+    for (size_t k = 0; k < 3; k++) {
       const double x = spacing * ((double)at[k] - 0.5 * (double)(side - 1)) +
                        uniform(rng, -0.01, 0.01);
       s.bed.x[3 * i + k] = centre[k] + x;
@@ -154,7 +154,7 @@ static double distance(const struct sample *a, const struct sample *b) {
 }
 
 static void momentum(const struct bed *b, double p[3]) {
-  for (int k = 0; k < 3; k++) {
+  for (size_t k = 0; k < 3; k++) {
     p[k] = 0;
     for (size_t i = 0; i < b->n; i++)
       p[k] += b->m[i] * b->v[3 * i + k];
@@ -189,7 +189,7 @@ static void test_momentum(enum scene_model model) {
     momentum(&s.bed, before);
     run(&s, "multirate", tol, 0.4);
     momentum(&s.bed, after);
-    for (int k = 0; k < 3; k++)
+    for (size_t k = 0; k < 3; k++)
       lost = GSL_MAX(lost, fabs(after[k] - before[k]));
     printf("momentum: model %d, tol %g: %.3g lost\n", model, tol, lost);
     CHECK_CLOSE(lost, 0, tol * (double)s.bed.n);
@@ -245,9 +245,35 @@ static void test_energy(void) {
 
 /* --- against sharp runs ----------------------------------------------------*/
 
-/* The error of a run is that of rkc at the same tolerance, or near it, and
-   falls with the tolerance as a method's of order 2: with its power 2/3, where
-   each step has the same error, to 1. */
+/* Each step of each run against a sharp one from the same start: no sphere's
+   error is more than the estimate lets through, whichever level took it. */
+static void test_local(enum scene_model model, bool mixed, double tol) {
+  struct sample s = rain(model, 12, mixed, 3);
+  struct motion *m = start(&s, "multirate", tol, 1);
+  double worst = 0;
+  while (integrate_time(m->integrator) < 0.25 &&
+         CHECK(integrate_step(m->integrator) == GSL_SUCCESS)) {
+    const struct integrate_view v = integrate_view(m->integrator);
+    struct sample c = rain(model, 12, mixed, 3),
+                  got = rain(model, 12, mixed, 3);
+    dynamics_unpack(m->dynamics, v.start, &c.bed);
+    dynamics_unpack(m->dynamics, v.y, &got.bed);
+    run(&c, "rkc", 1e-8, v.last_step);
+    worst = GSL_MAX(worst, distance(&c, &got) / tol);
+    sample_free(&c);
+    sample_free(&got);
+  }
+  printf("steps: model %d, tol %g: error at most %.2g of it\n", model, tol,
+         worst);
+  CHECK_CLOSE(worst, 0, 1.5);
+  motion_free(m);
+  sample_free(&s);
+}
+
+/* The error of a run is of the size of rkc's at the same tolerance, but for the
+   spheres that rkc's common steps are far too short for, and falls with the
+   tolerance as a method's of order 2: with its power 2/3, where each step has
+   the same error, to 1. */
 static void test_order(enum scene_model model, bool mixed) {
   const double end = 0.25;
   struct sample sharp = rain(model, 12, mixed, 3);
@@ -262,7 +288,7 @@ static void test_order(enum scene_model model, bool mixed) {
     const double plain = distance(&r, &sharp);
     printf("order: model %d, tol %g: error %.3g, rkc's %.3g\n", model, tol,
            error[k], plain);
-    CHECK(error[k] <= 3 * plain + 10 * tol);
+    CHECK(error[k] <= 3 * plain + 25 * tol);
     sample_free(&s);
     sample_free(&r);
   }
@@ -310,7 +336,7 @@ static void test_board(size_t columns, size_t lines, double speed) {
          columns, lines, speed, r.steps[0], r.steps[1], r.steps[2],
          distance(&s, &sharp), fabs(after[0] - before[0]));
   CHECK(r.steps[1] > 0); /* levels there are */
-  for (int k = 0; k < 3; k++)
+  for (size_t k = 0; k < 3; k++)
     CHECK_CLOSE(after[k], before[k], tol * sqrt(steps * (double)s.bed.n));
   CHECK_CLOSE(distance(&s, &sharp), 0, 10 * tol * sqrt(steps));
   sample_free(&s);
@@ -511,7 +537,7 @@ static void test_ghosts(void) {
         chebyshev_alloc(&setting.chebyshev) == GSL_SUCCESS);
   setting.dynamics = d;
   struct level *l[3] = {NULL};
-  for (int k = 0; k < 3; k++)
+  for (size_t k = 0; k < 3; k++)
     CHECK(level_alloc(&l[k], &setting, k == 0) == GSL_SUCCESS);
   const size_t stride = l[0]->stride;
   dynamics_pack(d, &s.bed, l[0]->y0);
@@ -526,9 +552,17 @@ static void test_ghosts(void) {
     fill(rng, l[k], l[k]->y1, 1);
     for (size_t i = 0; i < l[k]->rows; i++) {
       l[k]->error[i] = 8;
-      l[k]->flagged[i] = i % (k ? 2 : 3) == 0;
+      l[k]->flagged[i] = i % 4 < (k ? 2 : 3);
     }
-    CHECK(level_refine(l[k + 1], l[k], t[k], h[k]) == GSL_SUCCESS);
+    /* the largest of what would be islands, and all others are ghosts */
+    size_t largest = 0;
+    CHECK(level_islands(l[k], t[k], h[k]) == GSL_SUCCESS);
+    const struct islands *s = &l[k]->islands;
+    for (size_t q = 0; q < s->count; q++)
+      if (s->begin[q + 1] - s->begin[q] >
+          s->begin[largest + 1] - s->begin[largest])
+        largest = q;
+    CHECK(level_refine(l[k + 1], l[k], largest, t[k], h[k]) == GSL_SUCCESS);
     CHECK(l[k + 1]->rows > 0 && l[k + 1]->ghosts > 0);
     for (double x = 0; x <= 1; x += 0.125) {
       const double at = t[k] + x * h[k];
@@ -553,7 +587,7 @@ static void test_ghosts(void) {
     level_ghosts(l[k + 1], t[k + 1], l[k + 1]->y0);
   }
   CHECK(deep > 0);
-  for (int k = 0; k < 3; k++)
+  for (size_t k = 0; k < 3; k++)
     level_free(l[k]);
   chebyshev_free(setting.chebyshev);
   dynamics_free(d);
@@ -616,6 +650,12 @@ int main(void) {
   test_momentum(SCENE_FRICTION);
   test_momentum(SCENE_ROTATION);
   test_energy();
+  for (double tol = 1e-2; tol > 5e-4; tol /= 10) {
+    test_local(SCENE_BASIC, false, tol);
+    test_local(SCENE_FRICTION, true, tol);
+    test_local(SCENE_ROTATION, false, tol);
+    test_local(SCENE_ROTATION, true, tol);
+  }
   test_order(SCENE_BASIC, false);
   test_order(SCENE_FRICTION, false);
   test_order(SCENE_ROTATION, false);

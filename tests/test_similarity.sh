@@ -31,11 +31,11 @@ run() { # FILE OPTION...
 }
 
 for model in basic friction rotation; do
-  for method in rkc verlet dopri5 rk8pd rkf45 rkck merson; do
+  for method in rkc multirate verlet dopri5 rk8pd rkf45 rkck merson; do
     said="$model, $method"
     more=() small=() large=()
     case $method in
-      rkc) ;;
+      rkc | multirate) ;;
       verlet) more=(--step 1e-4) small=(--step 0.125e-4) large=(--step 4e-4) ;;
       *) more=(--control standard --tol 1e-3)
         small=(--control standard --tol 0.125e-3)

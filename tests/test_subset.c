@@ -12,6 +12,7 @@
 #include <string.h>
 #include "check.h"
 #include "dynamics/contact_subset.h"
+#include "dynamics/islands.h"
 #include "dynamics/rates.h"
 
 static double *numbers(size_t n) {
@@ -44,7 +45,7 @@ static struct sample random_sample(gsl_rng *rng, size_t n, int threads) {
   for (size_t i = 0; i < n; i++) {
     bed.r[i] = equal ? 0.1 : uniform(rng, 0.05, 0.15);
     bed.m[i] = equal ? 1 : uniform(rng, 0.2, 5);
-    for (int k = 0; k < 3; k++)
+    for (size_t k = 0; k < 3; k++)
       bed.x[3 * i + k] = uniform(rng, 0, side);
   }
   CHECK(contact_list_alloc(&s.list, &scene, &bed, (size_t)threads) ==
@@ -53,7 +54,7 @@ static struct sample random_sample(gsl_rng *rng, size_t n, int threads) {
   s.y = numbers(dim);
   s.rates = numbers(dim);
   for (size_t i = 0; i < n; i++) {
-    for (int k = 0; k < 3; k++)
+    for (size_t k = 0; k < 3; k++)
       s.y[i * stride + k] = bed.x[3 * s.list->order[i] + k];
     for (size_t k = ROW_V; k < stride; k++)
       s.y[i * stride + k] = uniform(rng, -2, 2);
@@ -115,6 +116,25 @@ static struct contact_reach everything(const double *y) {
   return (struct contact_reach){.y = y, .h = 0, .gap = 1e3};
 }
 
+/* The rows of that many marks. */
+static size_t rows_of(size_t n, const bool *marked, uint32_t *rows) {
+  size_t count = 0;
+  for (size_t i = 0; i < n; i++)
+    if (marked[i])
+      rows[count++] = (uint32_t)i;
+  return count;
+}
+
+static int take(struct contact_list *part, struct contact_list *from,
+                const bool *marked, const struct contact_reach *reach) {
+  uint32_t *rows = calloc(from->rows + 1, sizeof *rows);
+  CHECK(contact_list_partners(from) == GSL_SUCCESS);
+  const int status = contact_subset_rows(
+      part, from, rows, rows_of(from->rows, marked, rows), reach);
+  free(rows);
+  return status;
+}
+
 /* Rates of the marked rows, then of some of those among them. */
 static void test_rows(gsl_rng *rng, unsigned long seed) {
   gsl_rng_set(rng, seed);
@@ -129,7 +149,7 @@ static void test_rows(gsl_rng *rng, unsigned long seed) {
     count += marked[i] = gsl_rng_uniform(rng) < share;
   struct contact_list *part = part_of(s.list), *deeper = part_of(s.list);
   const struct contact_reach all = everything(s.y);
-  CHECK(contact_subset_rows(part, s.list, marked, &all) == GSL_SUCCESS);
+  CHECK(take(part, s.list, marked, &all) == GSL_SUCCESS);
   bool ok = CHECK(part->rows == count);
   for (size_t a = 0; a < part->rows; a++)
     ok = ok && marked[part->order[a]] &&
@@ -145,7 +165,7 @@ static void test_rows(gsl_rng *rng, unsigned long seed) {
   for (size_t a = 0; a < part->rows; a++)
     again[a] = gsl_rng_uniform(rng) < 0.5;
   const struct contact_reach within = everything(y);
-  CHECK(contact_subset_rows(deeper, part, again, &within) == GSL_SUCCESS);
+  CHECK(take(deeper, part, again, &within) == GSL_SUCCESS);
   double *z = state_of(deeper, y), *own = numbers(n * s.list->stride);
   evaluate(deeper, z, own);
   if (!CHECK_CLOSE(worst_of(deeper, own, rates, scale), 0, 64 * DBL_EPSILON))
@@ -189,7 +209,7 @@ static void test_split(gsl_rng *rng, unsigned long seed) {
     double least = GSL_POSINF;
     for (double t = 0; t <= reach.h; t += reach.h / 16 + 1e-9) {
       double u[3];
-      for (int k = 0; k < 3; k++)
+      for (size_t k = 0; k < 3; k++)
         u[k] = p[k] - w[k] + t * (p[ROW_V + k] - w[ROW_V + k]);
       least = GSL_MIN(least, vec3_norm(u));
     }
@@ -199,6 +219,58 @@ static void test_split(gsl_rng *rng, unsigned long seed) {
   free(rates);
   contact_list_free(near);
   contact_list_free(far);
+  sample_free(&s);
+}
+
+/* Islands: together all marked rows, each once, ascending; nothing is within
+   reach from one to another, and each holds together. */
+static void test_islands(gsl_rng *rng, unsigned long seed) {
+  gsl_rng_set(rng, seed);
+  const size_t n = 1 + gsl_rng_get(rng) % 150;
+  struct sample s = random_sample(rng, n, 1);
+  bool *marked = calloc(n, sizeof *marked);
+  size_t *island = calloc(n, sizeof *island), count = 0;
+  const double share = uniform(rng, 0, 1);
+  for (size_t i = 0; i < n; i++)
+    count += marked[i] = gsl_rng_uniform(rng) < share;
+  const struct contact_reach reach = {
+      .y = s.y, .h = uniform(rng, 0, 0.01), .gap = uniform(rng, -0.05, 0.05)};
+  struct islands k = {0};
+  for (int again = 0; again < 2; again++) /* the same a second time */
+    CHECK(islands_find(&k, s.list, marked, &reach) == GSL_SUCCESS);
+  CHECK(k.begin[0] == 0 && k.begin[k.count] == count);
+  for (size_t q = 0; q < k.count; q++) {
+    CHECK(k.begin[q + 1] > k.begin[q]);
+    CHECK(q == 0 || k.row[k.begin[q]] > k.row[k.begin[q - 1]]);
+    for (size_t p = k.begin[q]; p < k.begin[q + 1]; p++) {
+      CHECK(marked[k.row[p]] && island[k.row[p]] == 0);
+      CHECK(p == k.begin[q] || k.row[p] > k.row[p - 1]);
+      island[k.row[p]] = q + 1;
+    }
+  }
+  /* colours spread over contacts until nothing changes: an island has one */
+  size_t *colour = calloc(n, sizeof *colour);
+  for (size_t i = 0; i < n; i++)
+    colour[i] = i;
+  for (bool changes = true; changes;) {
+    changes = false;
+    for (size_t p = 0; p < s.list->near.count; p++) {
+      const size_t i = s.list->near.i[p], j = s.list->near.j[p];
+      if (!marked[i] || !marked[j] ||
+          !contact_subset_within(s.list, i, j, &reach))
+        continue;
+      CHECK(island[i] == island[j]);
+      changes = changes || colour[i] != colour[j];
+      colour[i] = colour[j] = GSL_MIN(colour[i], colour[j]);
+    }
+  }
+  for (size_t q = 0; q < k.count; q++)
+    for (size_t p = k.begin[q]; p < k.begin[q + 1]; p++)
+      CHECK(colour[k.row[p]] == k.row[k.begin[q]]);
+  islands_free(&k);
+  free(colour);
+  free(island);
+  free(marked);
   sample_free(&s);
 }
 
@@ -214,7 +286,7 @@ static void test_threads(gsl_rng *rng) {
       marked[i] = i % 7 > 0;
     struct contact_list *part = part_of(s.list);
     const struct contact_reach all = everything(s.y);
-    CHECK(contact_subset_rows(part, s.list, marked, &all) == GSL_SUCCESS);
+    CHECK(take(part, s.list, marked, &all) == GSL_SUCCESS);
     CHECK(part->threads == (size_t)threads);
     double *y = state_of(part, s.y), *rates = numbers(N * s.list->stride);
     evaluate(part, y, rates);
@@ -239,11 +311,11 @@ static void test_empty(gsl_rng *rng) {
   struct contact_list *part = part_of(s.list);
   bool marked[5] = {false};
   const struct contact_reach all = everything(s.y);
-  CHECK(contact_subset_rows(part, s.list, marked, &all) == GSL_SUCCESS);
+  CHECK(take(part, s.list, marked, &all) == GSL_SUCCESS);
   CHECK(part->rows == 0 && part->ghosts == 0 && part->near.count == 0);
   marked[3] = true;
   const struct contact_reach none = {.y = s.y, .gap = -10};
-  CHECK(contact_subset_rows(part, s.list, marked, &none) == GSL_SUCCESS);
+  CHECK(take(part, s.list, marked, &none) == GSL_SUCCESS);
   CHECK(part->rows == 1 && part->ghosts == 0 && part->near.count == 0);
   contact_list_free(part);
   sample_free(&s);
@@ -256,6 +328,7 @@ int main(void) {
   for (unsigned long seed = 0; seed < 100; seed++) {
     test_rows(rng, seed);
     test_split(rng, seed);
+    test_islands(rng, seed);
   }
   test_threads(rng);
   test_empty(rng);

@@ -35,6 +35,8 @@ void contact_list_free(struct contact_list *l) {
   free(l->order);
   free(l->radius);
   free(l->mass);
+  free(l->push);
+  free(l->turn);
   free(l->wall_first);
   free(l->wall_row);
   free(l->wall_id);
@@ -44,7 +46,9 @@ void contact_list_free(struct contact_list *l) {
   free(l->in_i);
   free(l->in_j);
   free(l->reference);
-  free(l->scratch);
+  free(l->partner_first);
+  free(l->partner);
+  free(l->place);
   free(l);
 }
 
@@ -101,15 +105,17 @@ static int reserve_rows(struct contact_list *l, size_t walls, size_t threads) {
   l->order = allocate(n, sizeof *l->order);
   l->radius = allocate(n, sizeof *l->radius);
   l->mass = allocate(n, sizeof *l->mass);
+  l->push = allocate(n, sizeof *l->push);
+  l->turn = allocate(n, sizeof *l->turn);
   l->wall_first = allocate(n + 1, sizeof *l->wall_first);
   l->wall_row = allocate(n * walls, sizeof *l->wall_row);
   l->wall_id = allocate(n * walls, sizeof *l->wall_id);
   l->part = allocate(threads, sizeof *l->part);
   l->incoming = allocate(threads + 1, sizeof *l->incoming);
   l->reference = allocate(3 * n, sizeof *l->reference);
-  return l->walls && l->order && l->radius && l->mass && l->wall_first &&
-                 l->wall_row && l->wall_id && l->part && l->incoming &&
-                 l->reference
+  return l->walls && l->order && l->radius && l->mass && l->push && l->turn &&
+                 l->wall_first && l->wall_row && l->wall_id && l->part &&
+                 l->incoming && l->reference
              ? GSL_SUCCESS
              : GSL_ENOMEM;
 }
@@ -139,6 +145,8 @@ int contact_list_alloc(struct contact_list **out, const struct scene *s,
   for (size_t i = 0; i < l->rows; i++) {
     l->radius[i] = b->r[l->order[i]];
     l->mass[i] = b->m[l->order[i]];
+    l->push[i] = 1 / l->mass[i];
+    l->turn[i] = -2.5 * l->push[i] / l->radius[i]; /* I = 2 m r^2/5 */
     uniform = uniform && l->radius[i] == l->radius[0];
     smallest = GSL_MIN(smallest, l->radius[i]);
   }
@@ -284,6 +292,27 @@ static int list_incoming(struct contact_list *l) {
   return GSL_SUCCESS;
 }
 
+int contact_list_partners(struct contact_list *l) {
+  const size_t rows = l->rows + l->ghosts, pairs = l->near.count;
+  if (l->partners_known)
+    return GSL_SUCCESS;
+  if (rows > l->partner_rows || !l->partner_first) {
+    free(l->partner_first);
+    l->partner_first = allocate(2 * rows + 2, sizeof *l->partner_first);
+    l->partner_rows = l->partner_first ? 2 * rows : 0;
+  }
+  if (pairs > l->partner_pairs || !l->partner) {
+    free(l->partner);
+    l->partner = allocate(4 * pairs, sizeof *l->partner);
+    l->partner_pairs = l->partner ? 2 * pairs : 0;
+  }
+  if (!l->partner_first || !l->partner)
+    return GSL_ENOMEM;
+  neighbors_partners(&l->near, rows, l->partner_first, l->partner);
+  l->partners_known = true;
+  return GSL_SUCCESS;
+}
+
 int contact_list_share(struct contact_list *l) {
   split_rows(l);
   const int status = list_incoming(l);
@@ -302,6 +331,7 @@ static int build(struct contact_list *l, const double *y, double way) {
   if (l->age != SIZE_MAX)
     tune_skin(l);
   l->skin = GSL_MAX(l->skin, 2 * way);
+  l->partners_known = false;
   l->age = SIZE_MAX; /* stays so if anything below fails */
   int status = neighbors_find(&l->near, l->rows, y, l->stride, l->radius,
                               l->law.lmax + l->skin);

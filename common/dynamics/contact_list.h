@@ -49,7 +49,8 @@ struct contact_list {
   size_t rows, stride, ghosts;
   /* Sphere of the bed in each row; of a part, row of what it is part of. */
   size_t *order;
-  double *radius, *mass;        /* by row */
+  double *radius, *mass; /* by row */
+  double *push, *turn;   /* 1/m and -r/I: rates by force and n x friction */
   size_t rows_size, walls_size; /* room of a part's arrays */
   /* Rates that contacts beside this list give each row, its length each, the
      positions' unused; NULL: there are none. Not owned. */
@@ -60,6 +61,13 @@ struct contact_list {
   struct neighbors near;
   size_t wall_contacts, *wall_first;
   uint32_t *wall_row, *wall_id; /* room for rows * walls_count */
+
+  /* The same pairs by row, ghosts too: row i's partners are partner[q],
+     partner_first[i] <= q < partner_first[i + 1], ascending. Listed on
+     demand. */
+  bool partners_known;
+  size_t *partner_first, partner_rows, partner_pairs; /* room */
+  uint32_t *partner;
 
   /* One part per thread. A pair with its partners in two parts is computed in
      both: those that come into part p from earlier ones are in_i[q], in_j[q],
@@ -79,8 +87,8 @@ struct contact_list {
   size_t age; /* evaluations since it was built; SIZE_MAX: there is none */
   size_t builds;
 
-  void *scratch; /* of contact_subset.c */
-  size_t scratch_size;
+  uint32_t *place; /* of contact_subset.c */
+  size_t places;
 };
 
 /* Prepares the list of a scene and its spheres; keeps no pointer to either.
@@ -112,6 +120,9 @@ bool contact_list_holds(const struct contact_list *l, const double y[]);
    given its unknowns. */
 double contact_list_speed(const struct contact_list *l, size_t row,
                           const double y[]);
+
+/* Lists the partners, unless they are. GSL_SUCCESS, GSL_ENOMEM. */
+int contact_list_partners(struct contact_list *l);
 
 /* Parts, pairs that come into them and room for sums, of a list whose contacts
    and span are new. GSL_SUCCESS, GSL_ENOMEM. */

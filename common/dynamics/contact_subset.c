@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dynamics/contact_subset.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 #include <gsl/gsl_errno.h>
@@ -57,7 +58,8 @@ static bool reserve_rows(struct contact_list *l, size_t rows) {
     return true;
   const size_t size = roomy(rows);
   if (!RESIZE(l->order, size) || !RESIZE(l->radius, size) ||
-      !RESIZE(l->mass, size) || !RESIZE(l->wall_first, size) ||
+      !RESIZE(l->mass, size) || !RESIZE(l->push, size) ||
+      !RESIZE(l->turn, size) || !RESIZE(l->wall_first, size) ||
       !RESIZE(l->near.first, size))
     return false;
   l->rows_size = size;
@@ -82,21 +84,10 @@ static bool reserve_contacts(struct contact_list *l, size_t pairs,
   return true;
 }
 
-static bool reserve_scratch(struct contact_list *l, size_t bytes) {
-  if (bytes <= l->scratch_size)
-    return true;
-  void *bigger = realloc(l->scratch, roomy(bytes));
-  if (!bigger)
-    return false;
-  l->scratch = bigger;
-  l->scratch_size = roomy(bytes);
-  return true;
-}
-
 /* The squared distance falls by 2 h u.v at least, to first order; the second is
    positive. */
-static bool pair_within(const struct contact_list *l, size_t i, size_t j,
-                        const struct contact_reach *reach) {
+bool contact_subset_within(const struct contact_list *l, size_t i, size_t j,
+                           const struct contact_reach *reach) {
   const double *p = reach->y + i * l->stride, *q = reach->y + j * l->stride;
   double u[3], v[3];
   vec3_sub(p + ROW_X, q + ROW_X, u);
@@ -122,118 +113,100 @@ static void copy_row(struct contact_list *to, size_t at,
   to->order[at] = row;
   to->radius[at] = from->radius[row];
   to->mass[at] = from->mass[row];
+  to->push[at] = from->push[row];
+  to->turn[at] = from->turn[row];
 }
 
 static void choose_threads(struct contact_list *l) {
   l->threads = contact_list_size(l) >= WORTH_SHARING ? l->most_threads : 1;
 }
 
-/* Marked rows get their places 0, 1, ...; returns how many. */
-static size_t place_rows(struct contact_list *part,
-                         const struct contact_list *from, const bool *marked,
-                         uint32_t *place) {
-  size_t rows = 0;
-  for (size_t i = 0; i < from->rows; i++) {
-    place[i] = NOWHERE;
-    if (marked[i]) {
-      copy_row(part, rows, from, i);
-      place[i] = (uint32_t)rows++;
-    }
+/* The place of each row of from in part, NOWHERE for all between calls; room
+   for that and for the contacts of the rows. */
+static uint32_t *reserve_part(struct contact_list *part,
+                              const struct contact_list *from,
+                              const uint32_t rows[], size_t count) {
+  size_t pairs = 0, walls = 0;
+  for (size_t a = 0; a < count; a++) {
+    pairs += from->partner_first[rows[a] + 1] - from->partner_first[rows[a]];
+    walls += from->wall_first[rows[a] + 1] - from->wall_first[rows[a]];
   }
-  for (size_t i = from->rows; i < from->rows + from->ghosts; i++)
-    place[i] = NOWHERE;
-  return rows;
+  const size_t all = from->rows + from->ghosts;
+  const size_t most = GSL_MIN(all, count + pairs);
+  if (!reserve_rows(part, most) || !reserve_contacts(part, pairs, walls))
+    return NULL;
+  if (all > part->places || !part->place) {
+    free(part->place);
+    part->place = malloc((2 * all + 1) * sizeof *part->place);
+    part->places = part->place ? 2 * all + 1 : 0;
+    for (size_t i = 0; i < part->places; i++)
+      part->place[i] = NOWHERE;
+  }
+  return part->place;
 }
 
-/* A pair of places, the first of them a row. */
-struct found {
-  uint32_t i, j;
-};
-
-/* Lists the pairs of marked rows, in the order of from's, and places the
-   ghosts. first[i + 1] counts row i's. */
-static size_t find_pairs(struct contact_list *part,
-                         const struct contact_list *from, const bool *marked,
-                         const struct contact_reach *reach, uint32_t *place,
-                         struct found *found) {
-  size_t count = 0;
-  for (size_t i = 0; i < from->rows; i++)
-    for (size_t q = from->near.first[i]; q < from->near.first[i + 1]; q++) {
-      const size_t j = from->near.j[q];
-      const bool second = j < from->rows && marked[j];
-      if ((!marked[i] && !second) || !pair_within(from, i, j, reach))
-        continue;
-      const size_t own = marked[i] ? i : j, other = marked[i] ? j : i;
-      if (place[other] == NOWHERE) {
-        const size_t at = part->rows + part->ghosts++;
-        copy_row(part, at, from, other);
-        place[other] = (uint32_t)at;
-      }
-      found[count++] = (struct found){place[own], place[other]};
-      part->near.first[place[own] + 1]++;
+/* Row a's pairs with rows after it and with ghosts, which get places. */
+static void take_pairs(struct contact_list *part,
+                       const struct contact_list *from, size_t a,
+                       const struct contact_reach *reach) {
+  const size_t i = part->order[a];
+  part->near.first[a] = part->near.count;
+  for (size_t q = from->partner_first[i]; q < from->partner_first[i + 1]; q++) {
+    const uint32_t j = from->partner[q];
+    if (part->place[j] <= a || !contact_subset_within(from, i, j, reach))
+      continue;
+    if (part->place[j] == NOWHERE) {
+      const size_t at = part->rows + part->ghosts++;
+      copy_row(part, at, from, j);
+      part->place[j] = (uint32_t)at;
     }
-  return count;
-}
-
-/* Puts what was found in the order of the first partner. */
-static void sort_pairs(struct contact_list *part, const struct found *found,
-                       size_t count) {
-  size_t *first = part->near.first;
-  for (size_t i = 0; i < part->rows; i++)
-    first[i + 1] += first[i];
-  for (size_t q = 0; q < count; q++) {
-    const size_t at = first[found[q].i]++;
-    part->near.i[at] = found[q].i;
-    part->near.j[at] = found[q].j;
+    part->near.i[part->near.count] = (uint32_t)a;
+    part->near.j[part->near.count++] = part->place[j];
   }
-  for (size_t i = part->rows; i > 0; i--) /* ends are the next beginnings */
-    first[i] = first[i - 1];
-  first[0] = 0;
-  part->near.count = count;
 }
 
 static void take_walls(struct contact_list *part,
-                       const struct contact_list *from) {
-  size_t count = 0;
-  for (size_t a = 0; a < part->rows; a++) {
-    const size_t i = part->order[a];
-    part->wall_first[a] = count;
-    for (size_t q = from->wall_first[i]; q < from->wall_first[i + 1]; q++) {
-      part->wall_row[count] = (uint32_t)a;
-      part->wall_id[count++] = from->wall_id[q];
-    }
+                       const struct contact_list *from, size_t a) {
+  const size_t i = part->order[a];
+  part->wall_first[a] = part->wall_contacts;
+  for (size_t q = from->wall_first[i]; q < from->wall_first[i + 1]; q++) {
+    part->wall_row[part->wall_contacts] = (uint32_t)a;
+    part->wall_id[part->wall_contacts++] = from->wall_id[q];
   }
-  part->wall_first[part->rows] = count;
-  part->wall_contacts = count;
 }
 
 int contact_subset_rows(struct contact_list *part,
-                        const struct contact_list *from, const bool marked[],
-                        const struct contact_reach *reach) {
-  const size_t all = from->rows + from->ghosts;
-  const size_t pairs = from->near.count;
+                        const struct contact_list *from, const uint32_t rows[],
+                        size_t count, const struct contact_reach *reach) {
+  assert(from->partners_known);
   part->rows = part->ghosts = part->near.count = part->wall_contacts = 0;
-  if (!reserve_rows(part, all) ||
-      !reserve_scratch(part,
-                       all * sizeof(uint32_t) + pairs * sizeof(struct found)))
+  part->partners_known = false;
+  uint32_t *place = reserve_part(part, from, rows, count);
+  if (!place)
     return GSL_ENOMEM;
-  struct found *found = part->scratch;
-  uint32_t *place = (uint32_t *)(found + pairs);
-  part->rows = place_rows(part, from, marked, place);
-  memset(part->near.first, 0, (part->rows + 1) * sizeof *part->near.first);
-  const size_t count = find_pairs(part, from, marked, reach, place, found);
-  if (!reserve_contacts(part, count, part->rows * part->walls_count))
-    return GSL_ENOMEM;
-  sort_pairs(part, found, count);
-  take_walls(part, from);
+  part->rows = count;
+  for (size_t a = 0; a < count; a++) {
+    assert(a == 0 || rows[a] > rows[a - 1]);
+    copy_row(part, a, from, rows[a]);
+    place[rows[a]] = (uint32_t)a;
+  }
+  for (size_t a = 0; a < count; a++) {
+    take_pairs(part, from, a, reach);
+    take_walls(part, from, a);
+  }
+  part->near.first[count] = part->near.count;
+  part->wall_first[count] = part->wall_contacts;
+  for (size_t a = 0; a < count + part->ghosts; a++)
+    place[part->order[a]] = NOWHERE;
   choose_threads(part);
-  part->span = part->rows + part->ghosts;
+  part->span = count + part->ghosts;
   return contact_list_share(part);
 }
 
 static int copy_rows(struct contact_list *to, const struct contact_list *from) {
   const size_t all = from->rows + from->ghosts;
   to->near.count = to->wall_contacts = 0;
+  to->partners_known = false;
   if (!reserve_rows(to, all) ||
       !reserve_contacts(to, from->near.count, from->wall_contacts))
     return GSL_ENOMEM;
@@ -260,7 +233,7 @@ int contact_subset_split(struct contact_list *near, struct contact_list *far,
     }
     for (size_t q = from->near.first[i]; q < from->near.first[i + 1]; q++) {
       const uint32_t j = from->near.j[q];
-      const int k = pair_within(from, i, j, reach);
+      const int k = contact_subset_within(from, i, j, reach);
       to[k]->near.i[pairs[k]] = (uint32_t)i;
       to[k]->near.j[pairs[k]++] = j;
     }

@@ -20,13 +20,17 @@ struct contact_reach {
 int contact_subset_alloc(struct contact_list **out,
                          const struct contact_list *whole);
 
-/* Makes part the list of the marked rows of from, which has as many marks as
-   rows, in their order, and of every contact of theirs within reach; partners
-   that are not marked, ghosts of from among them, become ghosts. GSL_SUCCESS,
+/* Whether rows i and j come within reach. */
+bool contact_subset_within(const struct contact_list *l, size_t i, size_t j,
+                           const struct contact_reach *reach);
+
+/* Makes part the list of count rows of from, ascending, and of every contact of
+   theirs within reach; partners that are not among them, ghosts of from too,
+   become ghosts. The partners of from are to be listed. GSL_SUCCESS,
    GSL_ENOMEM. */
 int contact_subset_rows(struct contact_list *part,
-                        const struct contact_list *from, const bool marked[],
-                        const struct contact_reach *reach);
+                        const struct contact_list *from, const uint32_t rows[],
+                        size_t count, const struct contact_reach *reach);
 
 /* Gives the contacts of from within reach to near and the others to far, both
    with all rows and ghosts of from. GSL_SUCCESS, GSL_ENOMEM. */

@@ -369,18 +369,18 @@ INLINE bool finish(const struct contact_list *list, const double *y,
     const double *state = y + i * stride;
     double *rate = rates + (i - from) * stride, *sum = sum_of(part, i);
     const double *more = frozen ? list->frozen + i * stride : NULL;
-    const double inverse_mass = 1 / list->mass[i];
+    const double push = list->push[i];
     for (int c = 0; c < 3; c++) {
       rate[c] = state[ROW_V + c];
-      rate[ROW_V + c] = list->gravity[c] + inverse_mass * sum[c];
+      rate[ROW_V + c] = list->gravity[c] + push * sum[c];
       if (frozen)
         rate[ROW_V + c] += more[ROW_V + c];
       checksum += rate[c] + rate[ROW_V + c];
     }
     if (has.rotation) {
-      const double scale = -2.5 * inverse_mass / list->radius[i];
+      const double turn = list->turn[i];
       for (int c = 0; c < 3; c++) {
-        rate[ROW_W + c] = scale * sum[4 + c];
+        rate[ROW_W + c] = turn * sum[4 + c];
         if (frozen)
           rate[ROW_W + c] += more[ROW_W + c];
         checksum += rate[ROW_W + c] + 0 * state[ROW_W + c]; /* free spins too */

@@ -20,6 +20,10 @@ static const double safety = 1.2, agreement = 0.1;
    serves unless one is rejected. */
 enum { FIRST_ITERATIONS = 50, NEXT_ITERATIONS = 8, ESTIMATE_SERVES = 4 };
 
+/* The radius of the level above is too large for a level that is only a part of
+   it; an estimate of its own pays from so many stages on. */
+enum { ESTIMATE_STAGES = 10 };
+
 /* A step of so many stages takes far contacts once. */
 enum { SPLIT_STAGES = 4 };
 
@@ -50,9 +54,13 @@ int level_alloc(struct level **out, struct level_setting *setting, bool all) {
   }
   l->near->frozen = l->frozen;
   memset(l->far->gravity, 0, sizeof l->far->gravity);
-  if (list)
-    for (size_t i = 0; i < list->rows; i++)
+  if (list) {
+    dynamics_scale(setting->dynamics, l->weight);
+    for (size_t i = 0; i < l->rows * l->stride; i++)
+      l->weight[i] = 1 / l->weight[i];
+    for (size_t i = 0; i < l->rows; i++)
       l->whole[i] = (uint32_t)i;
+  }
   *out = l;
   return GSL_SUCCESS;
 }
@@ -64,11 +72,12 @@ void level_free(struct level *l) {
     contact_list_free(l->list);
   contact_list_free(l->near);
   contact_list_free(l->far);
-  double *vectors[] = {l->y0,    l->f0,    l->y1,        l->f1,
-                       l->a,     l->b,     l->direction, l->frozen,
-                       l->cubic, l->error, l->wanted};
+  double *vectors[] = {l->y0,    l->f0,    l->y1,     l->f1,        l->y2,
+                       l->f2,    l->a,     l->b,      l->change,    l->frozen,
+                       l->cubic, l->error, l->wanted, l->direction, l->weight};
   for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++)
     free(vectors[k]);
+  islands_free(&l->islands);
   free(l->flagged);
   free(l->refined);
   free(l->whole);
@@ -100,7 +109,9 @@ int level_reserve(struct level *l) {
   l->whole = calloc(room, sizeof *l->whole);
   if (!renew(&l->y0, vector) || !renew(&l->f0, vector) ||
       !renew(&l->y1, vector) || !renew(&l->f1, vector) ||
-      !renew(&l->a, vector) || !renew(&l->b, vector) ||
+      !renew(&l->y2, vector) || !renew(&l->f2, vector) ||
+      !renew(&l->change, vector) || !renew(&l->a, vector) ||
+      !renew(&l->b, vector) || !renew(&l->weight, vector) ||
       !renew(&l->direction, vector) || !renew(&l->frozen, vector) ||
       !renew(&l->cubic, 4 * vector) || !renew(&l->error, room) ||
       !renew(&l->wanted, room) || !l->flagged || !l->refined || !l->whole)
@@ -121,12 +132,24 @@ static void euler(size_t dim, double h, const double *restrict y,
 }
 
 MULTIVERSION
-static double norm(size_t dim, const double *x) {
+static double length_of(size_t dim, const double *restrict x,
+                        const double *restrict weight) {
   double sum = 0;
 #pragma omp simd reduction(+ : sum)
   for (size_t i = 0; i < dim; i++)
-    sum += x[i] * x[i];
+    sum += weight[i] * x[i] * (weight[i] * x[i]);
   return sqrt(sum);
+}
+
+/* Of unknowns or rates of all rows, each in its unit. */
+static double norm(const struct level *l, const double *x) {
+  return length_of(l->rows * l->stride, x, l->weight);
+}
+
+/* A direction along all unknowns. */
+static void any_direction(struct level *l) {
+  for (size_t i = 0; i < l->rows * l->stride; i++)
+    l->direction[i] = (i % 2 ? 1 : -1) / l->weight[i];
 }
 
 MULTIVERSION
@@ -169,16 +192,9 @@ void level_ghosts(const struct level *l, double t, double y[]) {
                   y + l->rows * l->stride);
 }
 
-static void count(const struct level *l, size_t contacts) {
-  struct dynamics *d = l->setting->dynamics;
-  d->contacts += (double)contacts;
-  d->evaluations +=
-      (double)contacts / GSL_MAX((double)contact_list_size(d->list), 1);
-}
-
 static int evaluate(struct level *l, const struct contact_list *list, double t,
                     double *y, const struct rates_to *to) {
-  count(l, contact_list_size(list));
+  l->counts.contacts += contact_list_size(list);
   if (l->ghosts)
     level_ghosts(l, t, y);
   return rates_evaluate(list, l->setting->dynamics->kernel, y, to);
@@ -201,8 +217,8 @@ static int active_rates(struct level *l, double t, double y[], double f[]) {
    that of the change of y is the estimate. */
 static int power_iterate(struct level *l, double t, double *radius) {
   const size_t dim = l->rows * l->stride;
-  const double length = norm(dim, l->direction);
-  const double small = sqrt(GSL_DBL_EPSILON) * GSL_MAX(norm(dim, l->y0), 1e-3);
+  const double length = norm(l, l->direction);
+  const double small = sqrt(GSL_DBL_EPSILON) * GSL_MAX(norm(l, l->y0), 1e-3);
   euler(dim, small / length, l->y0, l->direction, l->a);
   l->counts.power_evaluations++;
   const int status = active_rates(l, t, l->a, l->b);
@@ -210,10 +226,9 @@ static int power_iterate(struct level *l, double t, double *radius) {
     return status;
   for (size_t i = 0; i < dim; i++)
     l->direction[i] = l->b[i] - l->f0[i];
-  *radius = norm(dim, l->direction) / small;
+  *radius = norm(l, l->direction) / small;
   if (!(*radius > 0)) /* f does not change along it: try another */
-    for (size_t i = 0; i < dim; i++)
-      l->direction[i] = i % 2 ? 1 : -1;
+    any_direction(l);
   return GSL_SUCCESS;
 }
 
@@ -222,9 +237,8 @@ static int estimate_radius(struct level *l, double t) {
   const size_t most = l->known ? NEXT_ITERATIONS : FIRST_ITERATIONS;
   if (!l->known) {
     memcpy(l->direction, l->f0, dim * sizeof *l->f0);
-    if (!(norm(dim, l->f0) > 0))
-      for (size_t i = 0; i < dim; i++)
-        l->direction[i] = i % 2 ? 1 : -1;
+    if (!(norm(l, l->f0) > 0))
+      any_direction(l);
     l->radius = 0;
   }
   double last = l->radius / safety, radius = 0;
@@ -238,6 +252,7 @@ static int estimate_radius(struct level *l, double t) {
   }
   l->radius = safety * radius;
   l->served = 0;
+  l->inherited = false;
   l->known = true;
   return GSL_SUCCESS;
 }
@@ -297,14 +312,18 @@ static int take_stages(struct level *l, double t, double h,
   return level_rates(l, t + h, l->y1, l->f1);
 }
 
+/* Largest of the unknowns [from, stride) of a row by their units. */
+static double largest(const struct level *l, size_t row, size_t from,
+                      const double *x) {
+  const double *weight = l->weight + row * l->stride;
+  double most = 0;
+  for (size_t c = from; c < l->stride; c++)
+    most = GSL_MAX(most, weight[c] * fabs(x[c]));
+  return most;
+}
+
 double level_row_error(const struct level *l, size_t row, const double v[]) {
-  double most = 0, spin = 0;
-  for (int c = 0; c < 3; c++)
-    most = GSL_MAX(most, fabs(v[ROW_V + c]));
-  if (l->list->has.rotation)
-    for (int c = 0; c < 3; c++)
-      spin = GSL_MAX(spin, fabs(v[ROW_W + c]));
-  return GSL_MAX(most, spin * l->list->radius[row]) / l->setting->tol;
+  return largest(l, row, ROW_V, v) / l->setting->tol;
 }
 
 double level_row_limit(const struct level *l, size_t row) {
@@ -330,19 +349,16 @@ static double travel_error(const struct level *l, size_t row, double h) {
 }
 
 /* The estimate 0.8 (y0 - y1) + 0.4 h (f0 + f1) of each row in units of the
-   tolerance, positions by 1/kappa. */
+   tolerance. */
 static void estimate_errors(struct level *l, double h) {
   const struct level_setting *s = l->setting;
-  const double kappa = l->list->law.kappa;
   for (size_t i = 0; i < l->rows; i++) {
     const size_t at = i * l->stride;
-    double e[ROW_SPIN], place = 0;
+    double e[ROW_SPIN];
     for (size_t c = 0; c < l->stride; c++)
       e[c] = 0.8 * (l->y0[at + c] - l->y1[at + c]) +
              0.4 * h * (l->f0[at + c] + l->f1[at + c]);
-    for (int c = 0; c < 3; c++)
-      place = GSL_MAX(place, fabs(e[c]));
-    double error = GSL_MAX(level_row_error(l, i, e), place * kappa / s->tol);
+    const double error = largest(l, i, ROW_X, e) / s->tol;
     l->error[i] = GSL_MAX(error, travel_error(l, i, h));
   }
 }
@@ -350,10 +366,13 @@ static void estimate_errors(struct level *l, double h) {
 int level_try(struct level *l, double t, double h) {
   int status = GSL_SUCCESS;
   l->active = l->list;
-  if (l->known &&
-      chebyshev_stages(l->setting->chebyshev, h * l->radius) >= SPLIT_STAGES)
+  const size_t stages =
+      l->known ? chebyshev_stages(l->setting->chebyshev, h * l->radius) : 0;
+  if (stages >= SPLIT_STAGES)
     status = split(l, t, h);
-  if (status == GSL_SUCCESS && (!l->known || l->served >= ESTIMATE_SERVES))
+
+  if (status == GSL_SUCCESS && (!l->known || l->served >= ESTIMATE_SERVES ||
+                                (l->inherited && stages >= ESTIMATE_STAGES)))
     status = estimate_radius(l, t);
   if (status != GSL_SUCCESS)
     return status;
@@ -417,14 +436,22 @@ static void make_ghosts(struct level *child, const struct level *l, double t,
   }
 }
 
-int level_refine(struct level *child, const struct level *l, double t,
-                 double h) {
-  const struct contact_law *law = &l->list->law;
+int level_islands(struct level *l, double t, double h) {
   if (l->ghosts)
     level_ghosts(l, t, l->y0);
+  const struct contact_reach reach = {.y = l->y0, .h = h, .gap = far_gap(l, h)};
+  return islands_find(&l->islands, l->list, l->flagged, &reach);
+}
+
+int level_refine(struct level *child, const struct level *l, size_t island,
+                 double t, double h) {
+  const struct contact_law *law = &l->list->law;
   const struct contact_reach reach = {
       .y = l->y0, .h = h, .gap = law->lmax + 2 / law->kappa};
-  int status = contact_subset_rows(child->list, l->list, l->flagged, &reach);
+  const size_t begin = l->islands.begin[island];
+  int status =
+      contact_subset_rows(child->list, l->list, l->islands.row + begin,
+                          l->islands.begin[island + 1] - begin, &reach);
   if (status == GSL_SUCCESS)
     status = level_reserve(child);
   if (status != GSL_SUCCESS)
@@ -434,6 +461,7 @@ int level_refine(struct level *child, const struct level *l, double t,
     copy_row(l->stride, l->y0, i, child->y0, a);
     copy_row(l->stride, l->f0, i, child->f0, a);
     copy_row(l->stride, l->direction, i, child->direction, a);
+    copy_row(l->stride, l->weight, i, child->weight, a);
     const double wants = h * GSL_MAX(0.02, 0.8 / cbrt(l->error[i]));
     child->wanted[a] =
         GSL_MIN(l->refined[i] ? GSL_MAX(l->wanted[i], wants) : wants, h);
@@ -445,7 +473,7 @@ int level_refine(struct level *child, const struct level *l, double t,
   /* its own is at most that of all, as far as a spectral radius is one of a
      symmetric matrix */
   child->radius = l->radius;
-  child->known = true;
+  child->known = child->inherited = true;
   child->served = 0;
   return GSL_SUCCESS;
 }
@@ -458,7 +486,7 @@ static int ghost_rates(struct level *l, double t, double *y) {
   const size_t all = l->rows + l->ghosts;
   const struct contact_part part = {
       .to = all, .sums = list->part[0].sums, .mask = list->part[0].mask};
-  count(l, list->near.count);
+  l->counts.contacts += list->near.count;
   level_ghosts(l, t, y);
   kernel->add_pairs(list, y, list->near.i, list->near.j, list->near.count,
                     &part);

@@ -8,9 +8,10 @@
 #define LEVEL_H
 
 #include "dynamics/internal.h"
+#include "dynamics/islands.h"
 #include "steppers/chebyshev.h"
 
-/* What all levels of a bed share. */
+/* What the levels of a bed that one thread works on share. */
 struct level_setting {
   struct dynamics *dynamics;
   struct chebyshev *chebyshev;
@@ -20,6 +21,7 @@ struct level_setting {
 };
 
 struct level_counts {
+  size_t contacts;        /* evaluated */
   size_t steps, rejected; /* accepted ones and others */
   size_t rows;            /* of all accepted steps */
   size_t evaluations, power_evaluations;
@@ -36,23 +38,29 @@ struct level {
   size_t room; /* rows that the arrays have room for */
 
   /* State and rates at the start of a step and at its end, stages, the
-     direction of the spectral radius, what far contacts give: a row of the
-     list each, ghosts included. */
-  double *y0, *f0, *y1, *f1, *a, *b, *direction, *frozen;
+     direction of the spectral radius, what far contacts give, and 1 by what
+     errors are measured in (dynamics_scale): a row of the list each, ghosts
+     included. */
+  double *y0, *f0, *y1, *f1, *a, *b, *direction, *frozen, *weight;
   /* Ghosts' unknowns are cubics of the time since start: four coefficients,
      each ghosts * stride. */
   double *cubic, start;
 
-  double *error;   /* of each row in the last try, 1: the tolerance */
-  double *wanted;  /* the step that each row would take (s) */
-  bool *flagged;   /* rows of the last try that need shorter steps */
+  double *error;          /* of each row in the last try, 1: the tolerance */
+  double *wanted;         /* the step that each row would take (s) */
+  bool *flagged;          /* rows of the last try that need shorter steps */
+  struct islands islands; /* of them */
+  /* Where shorter steps took the flagged rows by the end of the step, and what
+     that changes in the rates of others. */
+  double *y2, *f2, *change;
   bool *refined;   /* rows of the last accepted step that took them */
   uint32_t *whole; /* row of the bed, ghosts included */
 
-  bool known;    /* there is a spectral radius */
-  double radius; /* (1/s) */
-  size_t served; /* steps since it was estimated */
-  size_t stages; /* of the last try */
+  bool known;     /* there is a spectral radius */
+  double radius;  /* (1/s) */
+  bool inherited; /* from the level above */
+  size_t served;  /* steps since it was estimated */
+  size_t stages;  /* of the last try */
   struct level_counts counts;
 };
 
@@ -80,10 +88,14 @@ int level_try(struct level *l, double t, double h);
 void level_accept(struct level *l);
 void level_undo(struct level *l);
 
-/* Makes child the level of the flagged rows of l, whose step goes from t to
-   t + h: state, ghosts and the steps they want. GSL_SUCCESS, GSL_ENOMEM. */
-int level_refine(struct level *child, const struct level *l, double t,
-                 double h);
+/* Finds the islands of the flagged rows for a step of h from t, which is to
+   come before their levels are made. GSL_SUCCESS, GSL_ENOMEM. */
+int level_islands(struct level *l, double t, double h);
+
+/* Makes child the level of an island of l, whose step goes from t to t + h:
+   state, ghosts and the steps that the rows want. GSL_SUCCESS, GSL_ENOMEM. */
+int level_refine(struct level *child, const struct level *l, size_t island,
+                 double t, double h);
 
 /* What the rows of child, now at t + h, change in the rates at the end of l's
    step: change gets a row for each ghost of child. GSL_SUCCESS,

@@ -12,7 +12,7 @@
 #include "dynamics/dynamics.h"
 #include "steppers/integrate.h"
 
-enum { MULTIRATE_LEVELS = 3 };
+enum { MULTIRATE_LEVELS = 3 }; /* lanes.h */
 
 struct multirate;
 

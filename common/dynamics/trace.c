@@ -13,6 +13,9 @@ struct moment {
   uint32_t row;
 };
 
+/* In the place of a row. */
+#define ERASED UINT32_MAX
+
 struct trace {
   const struct contact_list *whole;
   size_t count, size;
@@ -53,6 +56,11 @@ void trace_cut(struct trace *r, size_t mark) {
   r->count = mark;
   if (mark == 0)
     r->fastest = 0;
+}
+
+void trace_erase(struct trace *r, size_t from, size_t to) {
+  for (size_t k = from; k < to; k++)
+    r->at[k].row = ERASED;
 }
 
 double trace_fastest(const struct trace *r) {
@@ -99,6 +107,8 @@ void trace_at(const struct trace *r, double t0, const double y0[],
   for (size_t i = 0; i < r->whole->rows; i++)
     r->last[i] = r->count;
   for (size_t k = 0; k < r->count; k++) { /* in order of time for each row */
+    if (r->at[k].row == ERASED)
+      continue;
     const size_t row = r->at[k].row, before = r->last[row];
     const bool first = before == r->count;
     const double begin = first ? t0 : r->at[before].t, end = r->at[k].t;

@@ -18,6 +18,9 @@ void trace_free(struct trace *r);
 size_t trace_mark(const struct trace *r);
 void trace_cut(struct trace *r, size_t mark);
 
+/* Takes what was added between two marks out again. */
+void trace_erase(struct trace *r, size_t from, size_t to);
+
 /* Adds the rows of an accepted step of l that ends at time t in its y0, f0, but
    for those that were refined and so are in it already. GSL_SUCCESS,
    GSL_ENOMEM. */

@@ -32,8 +32,10 @@ int bed_find_crowd(const struct bed *b, struct bed_crowd *c) {
   struct neighbors near = {0};
   struct bed_crowd found = {0};
   const int status = neighbors_find(&near, b->n, b->x, 3, b->r, 0);
-  if (status != GSL_SUCCESS)
+  if (status != GSL_SUCCESS) {
+    neighbors_free(&near);
     return status;
+  }
   double closest = bed_closest;
   for (size_t p = 0; p < near.count; p++) {
     const size_t i = near.i[p], j = near.j[p];

@@ -21,6 +21,14 @@ size_t system_threads(size_t wanted) {
 #endif
 }
 
+size_t system_thread(void) {
+#ifdef _OPENMP
+  return (size_t)omp_get_thread_num();
+#else
+  return 0;
+#endif
+}
+
 long system_peak_memory(void) {
   struct rusage usage;
   if (getrusage(RUSAGE_SELF, &usage) != 0)

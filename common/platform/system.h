@@ -11,6 +11,9 @@
    programs were built without OpenMP. */
 size_t system_threads(size_t wanted);
 
+/* The number of the calling thread among those that share a loop, from 0. */
+size_t system_thread(void);
+
 /* The most memory that this process has had (kB), or -1 where the system does
    not tell. */
 long system_peak_memory(void);
