@@ -24,7 +24,7 @@ for verb in 'profile --points 100000000' 'fraction --slab 0.000001'; do
   check "no message" test ! -s "$T/err"
 done
 # nobody there from the start, and no row before the end
-for verb in 'fraction --sampled 1500' 'order --cutoff 30 --spheres' \
+for verb in 'fraction --sampled 1500' 'order --cutoff 10 --spheres' \
   'gr --bins 1000000'; do
   said="closed pipe, $verb"
   start=$SECONDS
