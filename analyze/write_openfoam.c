@@ -3,6 +3,7 @@
    cubes, keep those that can be reached from a point in the pore, and move
    their corners onto the surface. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
@@ -123,9 +124,9 @@ void write_openfoam(const char *folder, const struct write_frame *f,
 
   struct output_file surface, block, snappy, control, schemes, solution;
   output_folder(folder);
-  const char *system = output_folder_in(folder, "system");
-  const char *constant = output_folder_in(folder, "constant");
-  const char *surfaces = output_folder_in(constant, "triSurface");
+  char *system = output_folder_in(folder, "system");
+  char *constant = output_folder_in(folder, "constant");
+  char *surfaces = output_folder_in(constant, "triSurface");
   output_open_in(&surface, surfaces, "spheres.stl");
   open_dictionary(&block, system, "blockMeshDict", s->statement);
   open_dictionary(&snappy, system, "snappyHexMeshDict", s->statement);
@@ -153,4 +154,7 @@ void write_openfoam(const char *folder, const struct write_frame *f,
   output_commit(&control);
   output_commit(&schemes);
   output_commit(&solution);
+  free(surfaces);
+  free(constant);
+  free(system);
 }

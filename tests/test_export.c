@@ -88,6 +88,12 @@ static struct bed make_bed(void) {
   gsl_rng_free(rng);
   struct bed_header header = {0};
   CHECK(bed_header_add(&header, "format", "bed-1") == GSL_SUCCESS);
+  /* what scene_default() has, which a bed of other spheres has not */
+  static const char *const law[][2] = {{"f0", "10"},    {"kappa", "150"},
+                                       {"psi", "10"},   {"vmin", "0.01"},
+                                       {"lmax", "0.1"}, {"gravity", "9.81"}};
+  for (size_t k = 0; k < sizeof law / sizeof *law; k++)
+    CHECK(bed_header_add(&header, law[k][0], law[k][1]) == GSL_SUCCESS);
   for (size_t k = 0; k < WALLS; k++) {
     char text[80];
     snprintf(text, sizeof text, "%g %g %g %g %g %g", walls[k][0], walls[k][1],

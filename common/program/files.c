@@ -230,8 +230,8 @@ void output_folder(const char *path) {
     die(EXIT_IO, "%s: is not a folder", path);
 }
 
-const char *output_folder_in(const char *folder, const char *name) {
-  const char *path = path_in(folder, name);
+char *output_folder_in(const char *folder, const char *name) {
+  char *path = path_in(folder, name);
   output_folder(path);
   return path;
 }

@@ -33,8 +33,8 @@ void output_commit(struct output_file *f);
    if it is still empty. Exits likewise. */
 void output_folder(const char *path);
 
-/* The same within a folder. The returned path lives as long as the program. */
-const char *output_folder_in(const char *folder, const char *name);
+/* The same within a folder. Returns its path, to be freed. */
+char *output_folder_in(const char *folder, const char *name);
 
 /* output_open of a file in a folder. */
 void output_open_in(struct output_file *f, const char *folder,
