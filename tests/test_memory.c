@@ -14,7 +14,11 @@
 #include "check.h"
 #include "dynamics/motion.h"
 #include "geometry/area.h"
+#include "geometry/clearance.h"
 #include "geometry/neighbors.h"
+#include "geometry/parts.h"
+#include "geometry/solid.h"
+#include "geometry/surface.h"
 #include "geometry/volume.h"
 #include "geometry/voxels.h"
 #include "measure/bond_order.h"
@@ -377,6 +381,91 @@ static int find_voxels(const struct sample *s) {
   return status;
 }
 
+/* A solid of all spheres with bridges between neighbours; to be freed. */
+static int make_solid(const struct sample *s, struct solid *solid,
+                      uint32_t (**ends)[2]) {
+  *solid = (struct solid){.n = s->bed.n, .x = s->bed.x, .r = s->bed.r};
+  *ends = NULL;
+  const int status =
+      solid_pairs(s->bed.n, s->bed.x, s->bed.r, 0.1, ends, &solid->bridges);
+  CHECK((status == GSL_SUCCESS) == (*ends != NULL));
+  solid->ends = (const uint32_t(*)[2]) * ends;
+  solid->bridge_radius = 0.09;
+  return status;
+}
+
+static int find_solid_volume(const struct sample *s) {
+  /* the box cuts a bridge, which is then integrated */
+  static const double part[6] = {0, 0.5, 0, 1, 0, 1};
+  struct solid solid;
+  uint32_t(*ends)[2];
+  struct solid_volume v = {.total = -1};
+  int status = make_solid(s, &solid, &ends);
+  if (status == GSL_SUCCESS) {
+    status = solid_volume(&solid, part, &v);
+    CHECK((status == GSL_SUCCESS) == (v.total >= 0 && v.error > 0));
+  }
+  free(ends);
+  return status;
+}
+
+static int find_shrink(const struct sample *s) {
+  double factor = -1;
+  const int status = solid_shrink(s->bed.n, s->bed.x, s->bed.r, 0.001, &factor);
+  CHECK((status == GSL_SUCCESS) == (factor > 0));
+  return status;
+}
+
+static int find_diffuse(const struct sample *s) {
+  double mean = -1;
+  const int status =
+      solid_diffuse(s->bed.n, s->bed.x, s->bed.r, box, 0.1, &mean);
+  CHECK((status == GSL_SUCCESS) == (mean >= 0));
+  return status;
+}
+
+static int find_clearance(const struct sample *s) {
+  const struct solid solid = {.n = s->bed.n, .x = s->bed.x, .r = s->bed.r};
+  double point[3], clearance = -1;
+  const int status = clearance_deepest(&solid, box, point, &clearance);
+  CHECK((status == GSL_SUCCESS) == (clearance > 0));
+  return status;
+}
+
+static void nothing(const double corner[3][3], void *context) {
+  (void)corner;
+  (void)context;
+}
+
+static int walk_surface(const struct sample *s) {
+  const struct solid solid = {.n = s->bed.n, .x = s->bed.x, .r = s->bed.r};
+  struct surface *f = NULL;
+  size_t count = 0;
+  int status = surface_open(&f, &solid, box, true, 20);
+  CHECK((status == GSL_SUCCESS) == (f != NULL));
+  if (status == GSL_SUCCESS) {
+    status = surface_walk(f, nothing, NULL, &count);
+    CHECK((status == GSL_SUCCESS) == (count > 0));
+  }
+  surface_close(f);
+  return status;
+}
+
+static int count_parts(const struct sample *s) {
+  struct parts *p = NULL;
+  bool solid[100];
+  (void)s;
+  int status = parts_open(&p, 100, 2);
+  CHECK((status == GSL_SUCCESS) == (p != NULL));
+  for (int row = 0; row < 6 && status == GSL_SUCCESS; row++) {
+    for (int i = 0; i < 100; i++)
+      solid[i] = (i + row) % 2;
+    status = parts_row(p, solid);
+  }
+  parts_close(p);
+  return status;
+}
+
 /* Fails the first, second, ... allocation until there are no more. */
 static void check_each(const char *what, int (*make)(const struct sample *),
                        const struct sample *s, size_t least) {
@@ -439,6 +528,12 @@ int main(void) {
   check_each("radii", find_radii, &few, 15);
   check_each("radius of a fraction", find_radius_of_fraction, &few, 100);
   check_each("voxels", find_voxels, &few, 10);
+  check_each("volume of a solid", find_solid_volume, &few, 25);
+  check_each("shrinking", find_shrink, &few, 3);
+  check_each("diffuse profile", find_diffuse, &few, 100);
+  check_each("clearance", find_clearance, &few, 1);
+  check_each("surface", walk_surface, &few, 5);
+  check_each("parts", count_parts, &few, 10);
   sample_free(&few);
   sample_free(&some);
   sample_free(&many);
