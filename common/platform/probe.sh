@@ -57,6 +57,12 @@ esac
 source="#include <omp.h>
 int main(void) { return omp_get_num_procs() < 1; }"
 openmp=$(first -fopenmp)
+# It may link and not load (a compiler for another C library, musl-gcc). That is
+# seen where programs of this compiler run at all.
+if [ -n "$openmp" ] && ! "$T/a" >/dev/null 2>&1; then
+  source=$nothing
+  links && "$T/a" >/dev/null 2>&1 && openmp=
+fi
 source=$nothing
 simd=$(first -fopenmp-simd -Wno-unknown-pragmas)
 # glibc's vector exponential, which gcc finds by its declaration, clang by name
