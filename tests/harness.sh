@@ -49,6 +49,11 @@ sanitized() { # whether the address sanitizer is in: it needs all addresses ther
   nm "$B/analyze" 2>/dev/null | grep -q __asan_init &&
     echo "skipped under the address sanitizer: $1"
 }
+if sanitized 'the time that things may take, ten times as much is granted'; then
+  timeout() {
+    command timeout $(($1 * 10)) "${@:2}"
+  }
+fi
 
 check_done() { # the last line, and the exit status of the script
   echo "${#sites[@]} sites"

@@ -151,6 +151,7 @@ check 'what is no regular file may be more than one' test \
 # A name is given to a file that is on the disk, and the directory after that.
 if command -v strace >/dev/null &&
   strace -o "$T/trace" -e trace=fsync,rename true 2>/dev/null; then
+  export ASAN_OPTIONS=detect_leaks=0 # LeakSanitizer traces as well
   strace -f -y -o "$T/trace" -e trace=fsync,rename,renameat,renameat2 \
     "$B/analyze" export --format positions --quiet --output "$D/new" \
     "$T/bed.csv" 2>"$T/err"
