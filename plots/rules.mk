@@ -28,8 +28,10 @@ GNUPLOT := gnuplot -d $(if $(QUICK),-e magnify=1)
 # end in .gp, and in .tsv or .log.
 define draw
 @mkdir -p $(@D)
-$(GNUPLOT) -c $(firstword $(filter %.gp,$^)) $(filter %.tsv %.log,$^) $(basename $@).svg
-$(GNUPLOT) -c $(firstword $(filter %.gp,$^)) $(filter %.tsv %.log,$^) $(basename $@).png
+for end in svg png; do \
+  $(GNUPLOT) -c $(firstword $(filter %.gp,$^)) $(filter %.tsv %.log,$^) \
+    $(basename $@).$$end || exit; \
+done
 endef
 
 # A table of data as Markdown

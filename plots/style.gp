@@ -97,8 +97,8 @@ set datafile columnheaders
 set datafile missing NaN
 
 # What a line "# KEY=VALUE" of a file says
-header(in, key) = system(sprintf("awk '/^# %s=/ { print substr($0, %d); exit }' '%s'", \
-  key, strlen(key) + 4, in))
+header(in, key) = system(sprintf("awk '/^# %s=/ { print substr($0, %d); ". \
+  "exit }' '%s'", key, strlen(key) + 4, in))
 
 # The model variants look the same in every figure: basic, friction, rotation,
 # or rotation with its friction coefficient as in rotation-0.2.

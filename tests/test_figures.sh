@@ -39,7 +39,8 @@ declare -A makes=(
   [bench-peers]='peers.md:2'
 )
 # Targets that make no figure; bench-clean comes last.
-others=' all check clients fuzz deps demo install uninstall clean help readme docs-figures bench-clean'
+others=' all check clients fuzz deps demo install uninstall clean help readme'
+others+=' docs-figures bench-clean'
 others+=' sanitize tidy check-long check-quick deps-developer man '
 
 targets=()
@@ -110,15 +111,15 @@ for product in ${makes[*]}; do
   fi
   ((charts)) || continue
   read -r width height ink colour edge < <(look "$figure.png")
-  size='700 800' # of a figure without SVG
+  expected='700 800' # of a figure without SVG
   if [[ $product == *.svg ]]; then
-    size=$(sed -n 's/.*<svg.* width="\([0-9]*\)" height="\([0-9]*\)".*/\1 \2/p
+    expected=$(sed -n 's/.*<svg.* width="\([0-9]*\)" height="\([0-9]*\)".*/\1 \2/p
       s/^ width="\([0-9]*\)" height="\([0-9]*\)".*/\1 \2/p' "$figure.svg" |
       head -n 1)
     check "$product is a whole picture" grep -q '</svg>' "$figure.svg"
   fi
-  check "$product: size is $width x $height, expected $size" \
-    test "$width $height" = "$size"
+  check "$product: size is $width x $height, expected $expected" \
+    test "$width $height" = "$expected"
   within "$product: ink (%)" "${ink:-none}" 1.5 99
   within "$product: colour (%)" "${colour:-none}" 0.05 99
   within "$product: dark pixels on the edge" "${edge:-none}" 0 0

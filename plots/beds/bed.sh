@@ -4,11 +4,12 @@
 #   bed.sh SETTINGS [--OPTION VALUE]... > ROW
 # SETTINGS is a path that is the command line: model-rotation/tol-1e-3/seed-3
 # runs settle --model rotation --tol 1e-3 --seed 3, so that a file is named by
-# what made it; further options come after it. RUN is a command to run it under, such as a lock.
-# Columns: the settings, "-" where settle chose, but for count and time; status (ok,
-# outside where a centre was outside of the walls at a frame, gave_up where no step
-# was short enough, stuck where LIMIT seconds of CPU time were not enough);
-# cost; fractions up to 1 m above the base; spheres whose centre is outside the
+# what made it; further options come after it. RUN is a command to run it under,
+# such as a lock.
+# Columns: the settings, "-" where settle chose, but for count and time; status
+# (ok, outside where a centre was outside of the walls at a frame, gave_up where
+# no step was short enough, stuck where LIMIT seconds of CPU time were not
+# enough); cost; fractions up to 1 m above the base; spheres whose centre is outside the
 # walls in the end; and, of frames-K, the kinetic energy per sphere (J), mean
 # over the last eighth of the time and over the one before it.
 set -u
@@ -84,7 +85,8 @@ motion=$(awk -F '\t' -v width="${base%,*}" -v depth="${base#*,}" '
   }
   END {
     end = t[frames]
-    print outside[frames] + 0 "\t" mean(0.875 * end, end) "\t" mean(0.75 * end, 0.875 * end)
+    print outside[frames] + 0 "\t" mean(0.875 * end, end) "\t" \
+      mean(0.75 * end, 0.875 * end)
   }' "$T/bed")
 
 # what settle chose, of what tells the size of the run

@@ -18,8 +18,8 @@ function put(panel, y, interval,  kind) {
   if (interval == "nan") interval = 0 # of one seed
   kind = get("status") == "failed" ? "failed" : \
     interval + 0 > 0 && y <= interval + 0 ? "limit" : "point"
-  rows[panel] = rows[panel] panel OFS side OFS get("method") OFS setting OFS get("seeds") \
-    OFS x OFS (kind == "limit" ? y + interval : y) OFS y - interval OFS \
+  rows[panel] = rows[panel] panel OFS side OFS get("method") OFS setting OFS \
+    get("seeds") OFS x OFS (kind == "limit" ? y + interval : y) OFS y - interval OFS \
     y + interval OFS kind OFS is_default "\n"
 }
 {

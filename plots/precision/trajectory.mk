@@ -35,7 +35,8 @@ HORIZON_again := --method rk8pd --control standard --tol 1e-9
 HORIZON_merson := --method merson
 HORIZON_rkc := --method rkc
 HORIZON_verlet := --method verlet --step 2.5e-5
-HORIZON_SIZE := --lmax 0.2 $(if $(QUICK),--count 32 --time 0.8 --frames 41,--time 3 --frames 151)
+HORIZON_SIZE := --lmax 0.2 $(if $(QUICK),--count 32 --time 0.8 --frames 41,\
+  --time 3 --frames 151)
 HORIZON := $(PRECISION_DATA)/horizon
 define horizon_run
 $(HORIZON)/$(1)-$(2).bed: | $(B)/settle

@@ -71,7 +71,8 @@ set key at screen 0.5,0.01 center bottom vertical maxrows 3 width 0
 case_tapers = "none none shift c1 c2"
 case_lmaxes = "0.1 0.2 0.1 0.1 0.1"
 case_colours = blue." ".purple." ".orange." ".sky." ".black
-case_titles = "'cut, 0.1 m' 'cut, 0.2 m' 'shifted, 0.1 m' 'C^1 taper, 0.1 m' 'C^2 taper, 0.1 m'"
+case_titles = "'cut, 0.1 m' 'cut, 0.2 m' 'shifted, 0.1 m' ". \
+  "'C^1 taper, 0.1 m' 'C^2 taper, 0.1 m'"
 plot for [i=1:5] ARG1 using (of("rk8pd", word(case_tapers, i), \
     word(case_lmaxes, i)) ? column("evaluations") : NaN): \
     (column("error_velocity") > 0 ? column("error_velocity") : NaN) \

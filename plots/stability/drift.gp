@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Relative error of the energy over time, one curve a method at equal cost. Upper panel:
-# a bouncing sphere at its apexes; lower: a closed box, the largest error of
-# each stretch.
+# Relative error of the energy over time, one curve per method at equal cost.
+# Upper panel: a bouncing sphere at its apexes; lower: a closed box, the largest
+# error of each stretch.
 #   gnuplot -c plots/stability/drift.gp BOUNCE BOX OUT
 # IN: columns method units error largest status.
 set loadpath system("dirname '".ARG0."'")."/.."

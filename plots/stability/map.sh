@@ -3,7 +3,8 @@
 # Outcomes of beds: one row per cell of the map, from rows of plots/beds/bed.sh.
 #   map.sh ROW... > MAP
 # A cell is a panel (model, method; -free without the limit by travel, -short
-# with lmax = 0.1 m for soft spheres as well), a tolerance or step, and kappa; of its seeds it shows the worst outcome:
+# with lmax = 0.1 m for soft spheres as well), a tolerance or step, and kappa; of
+# its seeds it shows the worst outcome:
 #   stopped    an energy no fall can give (over 100 J a sphere) or no number
 #   tunnelled  a sphere's centre is outside a wall at a frame or in the end
 #   gave_up    no step was short enough for the tolerance, or the CPU time did

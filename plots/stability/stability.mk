@@ -47,9 +47,11 @@ $(foreach m,$(DRIFT_METHODS),$(eval $(call stability_run,drift-bounce-$(m),\
 $(foreach m,$(DRIFT_METHODS),$(eval $(call stability_run,drift-box-$(m),\
   drift --scene box --method $(m) $(if $(QUICK),--count 10 --edge 0.8 \
   --cost 3000 --units 10,--cost 10000 --units 100))))
-$(STABILITY_DATA)/drift-bounce.tsv: $(DRIFT_METHODS:%=$(STABILITY_DATA)/drift-bounce-%.tsv)
+$(STABILITY_DATA)/drift-bounce.tsv: \
+  $(DRIFT_METHODS:%=$(STABILITY_DATA)/drift-bounce-%.tsv)
 	$(call stability_merge,$^) > $@
-$(STABILITY_DATA)/drift-box.tsv: $(DRIFT_METHODS:%=$(STABILITY_DATA)/drift-box-%.tsv)
+$(STABILITY_DATA)/drift-box.tsv: \
+  $(DRIFT_METHODS:%=$(STABILITY_DATA)/drift-box-%.tsv)
 	$(call stability_merge,$^) > $@
 stability-drift: $(F)/stability-drift.svg ## energy over 1000 bounces and in a closed box
 $(F)/stability-drift.svg: plots/stability/drift.gp plots/style.gp \
