@@ -359,6 +359,7 @@ static void write_levels(const struct multirate *m, FILE *out) {
     fprintf(out, "level%d_steps\t%zu\n", k, r.steps[k]);
     fprintf(out, "level%d_rejected\t%zu\n", k, r.rejected[k]);
     fprintf(out, "level%d_evaluations\t%zu\n", k, r.evaluations[k]);
+    fprintf(out, "level%d_contacts\t%zu\n", k, r.contacts[k]);
     fprintf(out, "level%d_spheres\t%.4g\n", k, r.rows[k]);
   }
   fprintf(out, "partners_joined\t%zu\n", r.again);

@@ -38,7 +38,7 @@ static double wanted_step(double h, double error, double most) {
 }
 
 static double stages_of(const struct level *l, double h) {
-  return sqrt(1 + 1.54 * h * l->radius);
+  return sqrt(1 + 1.54 * h * l->power.radius);
 }
 
 /* The step of at most so much that makes the work least, of the level and of
@@ -385,7 +385,7 @@ static int step(struct lane *lane, size_t depth, double t, double *h) {
       break;
     if (!may_be_shorter(status))
       return status;
-    l->known = l->known && status == GSL_FAILURE;
+    l->power.known = l->power.known && status == GSL_FAILURE;
     *h /= status == GSL_FAILURE ? 2 : 4;
   }
   accept(l, *h);
@@ -453,6 +453,7 @@ int lanes_alloc(struct lanes **out, struct dynamics *d, double tol,
   struct level_setting setting = {.dynamics = d,
                                   .tol = tol,
                                   .travel = travel,
+                                  .least_reach = chebyshev_reach(2),
                                   .lightest = d->list->mass[0]};
   for (size_t i = 0; i < d->list->rows; i++)
     setting.lightest = GSL_MIN(setting.lightest, d->list->mass[i]);

@@ -12,13 +12,9 @@
 #include "model/travel.h"
 #include "platform/multiversion.h"
 
-/* The estimate grows towards the spectral radius from below; two iterations
-   that differ by less than agreement end the search. */
-static const double safety = 1.2, agreement = 0.1;
-
-/* Power iterations at most, at first and later, and how many steps an estimate
-   serves unless one is rejected. */
-enum { FIRST_ITERATIONS = 50, NEXT_ITERATIONS = 8, ESTIMATE_SERVES = 4 };
+/* Steps that an estimate of the spectral radius serves unless one is
+   rejected. */
+enum { ESTIMATE_SERVES = 4 };
 
 /* The radius of the level above is too large for a level that is only a part of
    it; an estimate of its own pays from so many stages on. */
@@ -72,9 +68,14 @@ void level_free(struct level *l) {
     contact_list_free(l->list);
   contact_list_free(l->near);
   contact_list_free(l->far);
-  double *vectors[] = {l->y0,    l->f0,    l->y1,     l->f1,        l->y2,
-                       l->f2,    l->a,     l->b,      l->change,    l->frozen,
-                       l->cubic, l->error, l->wanted, l->direction, l->weight};
+  double *vectors[] = {l->y0,     l->f0,
+                       l->y1,     l->f1,
+                       l->y2,     l->f2,
+                       l->a,      l->b,
+                       l->change, l->frozen,
+                       l->cubic,  l->error,
+                       l->wanted, l->power.direction,
+                       l->weight};
   for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++)
     free(vectors[k]);
   islands_free(&l->islands);
@@ -112,7 +113,7 @@ int level_reserve(struct level *l) {
       !renew(&l->y2, vector) || !renew(&l->f2, vector) ||
       !renew(&l->change, vector) || !renew(&l->a, vector) ||
       !renew(&l->b, vector) || !renew(&l->weight, vector) ||
-      !renew(&l->direction, vector) || !renew(&l->frozen, vector) ||
+      !renew(&l->power.direction, vector) || !renew(&l->frozen, vector) ||
       !renew(&l->cubic, 4 * vector) || !renew(&l->error, room) ||
       !renew(&l->wanted, room) || !l->flagged || !l->refined || !l->whole)
     return GSL_ENOMEM;
@@ -122,35 +123,6 @@ int level_reserve(struct level *l) {
 }
 
 /* --- vectors ---------------------------------------------------------------*/
-
-MULTIVERSION
-static void euler(size_t dim, double h, const double *restrict y,
-                  const double *restrict f, double *restrict out) {
-#pragma omp simd
-  for (size_t i = 0; i < dim; i++)
-    out[i] = y[i] + h * f[i];
-}
-
-MULTIVERSION
-static double length_of(size_t dim, const double *restrict x,
-                        const double *restrict weight) {
-  double sum = 0;
-#pragma omp simd reduction(+ : sum)
-  for (size_t i = 0; i < dim; i++)
-    sum += weight[i] * x[i] * (weight[i] * x[i]);
-  return sqrt(sum);
-}
-
-/* Of unknowns or rates of all rows, each in its unit. */
-static double norm(const struct level *l, const double *x) {
-  return length_of(l->rows * l->stride, x, l->weight);
-}
-
-/* A direction along all unknowns. */
-static void any_direction(struct level *l) {
-  for (size_t i = 0; i < l->rows * l->stride; i++)
-    l->direction[i] = (i % 2 ? 1 : -1) / l->weight[i];
-}
 
 MULTIVERSION
 static void evaluate_cubics(size_t n, double s, const double *restrict c,
@@ -205,56 +177,33 @@ int level_rates(struct level *l, double t, double y[], double f[]) {
   return evaluate(l, l->list, t, y, &(struct rates_to){.dydt = f});
 }
 
+/* --- the spectral radius ---------------------------------------------------*/
+
 /* Of the contacts that stages see. */
-static int active_rates(struct level *l, double t, double y[], double f[]) {
+static int active_rates(double t, double y[], double f[], void *level) {
+  struct level *l = level;
   l->counts.evaluations++;
   return evaluate(l, l->active, t, y, &(struct rates_to){.dydt = f});
 }
 
-/* --- the spectral radius ---------------------------------------------------*/
-
-/* One iteration: direction <- f(y + small direction) - f(y), whose length over
-   that of the change of y is the estimate. */
-static int power_iterate(struct level *l, double t, double *radius) {
-  const size_t dim = l->rows * l->stride;
-  const double length = norm(l, l->direction);
-  const double small = sqrt(GSL_DBL_EPSILON) * GSL_MAX(norm(l, l->y0), 1e-3);
-  euler(dim, small / length, l->y0, l->direction, l->a);
-  l->counts.power_evaluations++;
-  const int status = active_rates(l, t, l->a, l->b);
-  if (status != GSL_SUCCESS)
-    return status;
-  for (size_t i = 0; i < dim; i++)
-    l->direction[i] = l->b[i] - l->f0[i];
-  *radius = norm(l, l->direction) / small;
-  if (!(*radius > 0)) /* f does not change along it: try another */
-    any_direction(l);
-  return GSL_SUCCESS;
-}
-
-static int estimate_radius(struct level *l, double t) {
-  const size_t dim = l->rows * l->stride;
-  const size_t most = l->known ? NEXT_ITERATIONS : FIRST_ITERATIONS;
-  if (!l->known) {
-    memcpy(l->direction, l->f0, dim * sizeof *l->f0);
-    if (!(norm(l, l->f0) > 0))
-      any_direction(l);
-    l->radius = 0;
+static int estimate_radius(struct level *l, double t, double h) {
+  const struct power_problem problem = {.dim = l->rows * l->stride,
+                                        .t = t,
+                                        .h = h,
+                                        .y = l->y0,
+                                        .f = l->f0,
+                                        .weight = l->weight,
+                                        .least = l->setting->least_reach,
+                                        .rates = active_rates,
+                                        .params = l,
+                                        .trial = l->a,
+                                        .slope = l->b};
+  const int status = power_estimate(&l->power, &problem);
+  if (status == GSL_SUCCESS) {
+    l->served = 0;
+    l->inherited = false;
   }
-  double last = l->radius / safety, radius = 0;
-  for (size_t k = 0; k < most; k++) {
-    const int status = power_iterate(l, t, &radius);
-    if (status != GSL_SUCCESS)
-      return status;
-    if ((last > 0 || k) && fabs(radius - last) <= agreement * radius)
-      break;
-    last = radius;
-  }
-  l->radius = safety * radius;
-  l->served = 0;
-  l->inherited = false;
-  l->known = true;
-  return GSL_SUCCESS;
+  return status;
 }
 
 /* --- near and far ----------------------------------------------------------*/
@@ -292,7 +241,7 @@ static int take_stages(struct level *l, double t, double h,
   const size_t dim = l->rows * l->stride;
   double *before = l->a, *now = l->b;
   memcpy(before, l->y0, dim * sizeof *before);
-  euler(dim, h * scheme->w1 * scheme->b1, l->y0, l->f0, now);
+  stage_move(dim, h * scheme->w1 * scheme->b1, l->y0, l->f0, now);
   for (size_t j = 2; j <= scheme->stages; j++) {
     const struct chebyshev_stage *next = &scheme->stage[j - 2];
     const struct stage sum = chebyshev_stage(next, h, l->y0, l->f0);
@@ -366,17 +315,19 @@ static void estimate_errors(struct level *l, double h) {
 int level_try(struct level *l, double t, double h) {
   int status = GSL_SUCCESS;
   l->active = l->list;
-  const size_t stages =
-      l->known ? chebyshev_stages(l->setting->chebyshev, h * l->radius) : 0;
+  const size_t stages = l->power.known ? chebyshev_stages(l->setting->chebyshev,
+                                                          h * l->power.radius)
+                                       : 0;
   if (stages >= SPLIT_STAGES)
     status = split(l, t, h);
 
-  if (status == GSL_SUCCESS && (!l->known || l->served >= ESTIMATE_SERVES ||
-                                (l->inherited && stages >= ESTIMATE_STAGES)))
-    status = estimate_radius(l, t);
+  if (status == GSL_SUCCESS &&
+      (!l->power.known || l->served >= ESTIMATE_SERVES ||
+       (l->inherited && stages >= ESTIMATE_STAGES)))
+    status = estimate_radius(l, t, h);
   if (status != GSL_SUCCESS)
     return status;
-  l->stages = chebyshev_stages(l->setting->chebyshev, h * l->radius);
+  l->stages = chebyshev_stages(l->setting->chebyshev, h * l->power.radius);
   if (!l->stages)
     return GSL_FAILURE;
   const struct chebyshev_scheme *scheme =
@@ -460,7 +411,7 @@ int level_refine(struct level *child, const struct level *l, size_t island,
     const size_t i = child->list->order[a];
     copy_row(l->stride, l->y0, i, child->y0, a);
     copy_row(l->stride, l->f0, i, child->f0, a);
-    copy_row(l->stride, l->direction, i, child->direction, a);
+    copy_row(l->stride, l->power.direction, i, child->power.direction, a);
     copy_row(l->stride, l->weight, i, child->weight, a);
     const double wants = h * GSL_MAX(0.02, 0.8 / cbrt(l->error[i]));
     child->wanted[a] =
@@ -472,8 +423,9 @@ int level_refine(struct level *child, const struct level *l, size_t island,
   make_ghosts(child, l, t, h);
   /* its own is at most that of all, as far as a spectral radius is one of a
      symmetric matrix */
-  child->radius = l->radius;
-  child->known = child->inherited = true;
+  child->power.radius = l->power.radius;
+  child->power.known = child->inherited = true;
+  child->power.length = 0;
   child->served = 0;
   return GSL_SUCCESS;
 }

@@ -10,21 +10,23 @@
 #include "dynamics/internal.h"
 #include "dynamics/islands.h"
 #include "steppers/chebyshev.h"
+#include "steppers/power.h"
 
 /* What the levels of a bed that one thread works on share. */
 struct level_setting {
   struct dynamics *dynamics;
   struct chebyshev *chebyshev;
-  double tol;      /* error of a sphere's velocity in a step (m/s) */
-  double lightest; /* sphere (kg) */
-  double travel;   /* furthest that a sphere may go in a step (m), 0: any */
+  double least_reach; /* of two stages */
+  double tol;         /* error of a sphere's velocity in a step (m/s) */
+  double lightest;    /* sphere (kg) */
+  double travel;      /* furthest that a sphere may go in a step (m), 0: any */
 };
 
 struct level_counts {
   size_t contacts;        /* evaluated */
   size_t steps, rejected; /* accepted ones and others */
   size_t rows;            /* of all accepted steps */
-  size_t evaluations, power_evaluations;
+  size_t evaluations;
   size_t refined; /* steps of which a part was taken again in shorter ones */
   size_t again;   /* times that such a part had to grow */
 };
@@ -37,11 +39,10 @@ struct level {
   size_t rows, ghosts, stride;
   size_t room; /* rows that the arrays have room for */
 
-  /* State and rates at the start of a step and at its end, stages, the
-     direction of the spectral radius, what far contacts give, and 1 by what
-     errors are measured in (dynamics_scale): a row of the list each, ghosts
-     included. */
-  double *y0, *f0, *y1, *f1, *a, *b, *direction, *frozen, *weight;
+  /* State and rates at the start of a step and at its end, stages, what far
+     contacts give, and 1 by what errors are measured in (dynamics_scale): a row
+     of the list each, ghosts included. */
+  double *y0, *f0, *y1, *f1, *a, *b, *frozen, *weight;
   /* Ghosts' unknowns are cubics of the time since start: four coefficients,
      each ghosts * stride. */
   double *cubic, start;
@@ -56,11 +57,10 @@ struct level {
   bool *refined;   /* rows of the last accepted step that took them */
   uint32_t *whole; /* row of the bed, ghosts included */
 
-  bool known;     /* there is a spectral radius */
-  double radius;  /* (1/s) */
-  bool inherited; /* from the level above */
-  size_t served;  /* steps since it was estimated */
-  size_t stages;  /* of the last try */
+  struct power power; /* the spectral radius (1/s) */
+  bool inherited;     /* from the level above */
+  size_t served;      /* steps since it was estimated */
+  size_t stages;      /* of the last try */
   struct level_counts counts;
 };
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dynamics/multirate.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <gsl/gsl_errno.h>
@@ -31,6 +32,7 @@ static void count_contacts(struct multirate *m) {
   const double listed = (double)contact_list_size(m->d->list);
   m->d->contacts += more;
   m->d->evaluations += more / GSL_MAX(listed, 1);
+  m->d->list->age += (size_t)lround(more / GSL_MAX(listed, 1));
   m->contacts = all;
 }
 
@@ -55,7 +57,6 @@ static int prepare_list(struct multirate *m, double *h) {
     *h = GSL_MAX(0.9 * most / way * *h, lanes_shortest(*h));
     way = longest_way(l, *h);
   }
-  list->age++;
   return contact_list_hold(list, l->y0, way);
 }
 
@@ -156,13 +157,13 @@ static struct integrate_view multirate_view(const void *engine) {
 static struct rkc_report multirate_found(const void *engine) {
   const struct multirate *m = engine;
   const struct level *l = lanes_bed(m->lanes);
-  struct rkc_report r = {.spectral_radius = l->radius,
+  struct rkc_report r = {.spectral_radius = l->power.radius,
                          .stages = l->stages,
                          .most_stages = m->most_stages,
-                         .power_evaluations = l->counts.power_evaluations};
+                         .power_evaluations = l->power.evaluations};
   for (size_t k = 0; k < m->lanes->count; k++)
     for (size_t q = 1; q < LANES_LEVELS; q++)
-      r.power_evaluations += counts_of(m, k, q)->power_evaluations;
+      r.power_evaluations += m->lanes->lane[k].level[q]->power.evaluations;
   return r;
 }
 
@@ -196,6 +197,7 @@ struct multirate_report multirate_report(const struct multirate *m) {
       r.steps[q] += c->steps;
       r.rejected[q] += c->rejected;
       r.evaluations[q] += c->evaluations;
+      r.contacts[q] += c->contacts;
       r.again += c->again;
       rows += (double)c->rows;
     }

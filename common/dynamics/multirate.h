@@ -22,6 +22,7 @@ struct multirate_report {
   size_t rejected[MULTIRATE_LEVELS]; /* taken again as a whole */
   double rows[MULTIRATE_LEVELS];     /* spheres in an accepted step, mean */
   size_t evaluations[MULTIRATE_LEVELS];
+  size_t contacts[MULTIRATE_LEVELS]; /* evaluated */
   size_t again; /* times that neighbours had to join the refined */
 };
 struct multirate_report multirate_report(const struct multirate *m);

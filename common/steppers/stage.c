@@ -19,3 +19,16 @@ void stage_combine(const struct stage *s, size_t at, size_t count,
                    const double y[], const double f[], double out[]) {
   combine(s, count, s->start + at, s->rate + at, y + at, f, out + at);
 }
+
+MULTIVERSION
+static void move(size_t n, double h, const double *restrict y,
+                 const double *restrict f, double *restrict out) {
+#pragma omp simd
+  for (size_t i = 0; i < n; i++)
+    out[i] = y[i] + h * f[i];
+}
+
+void stage_move(size_t n, double h, const double y[], const double f[],
+                double out[]) {
+  move(n, h, y, f, out);
+}

@@ -24,4 +24,8 @@ typedef int stage_function(double t, const double y[], const struct stage *s,
 void stage_combine(const struct stage *s, size_t at, size_t count,
                    const double y[], const double f[], double out[]);
 
+/* out = y + h f of n components. Safe in any thread. */
+void stage_move(size_t n, double h, const double y[], const double f[],
+                double out[]);
+
 #endif
