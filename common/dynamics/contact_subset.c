@@ -84,18 +84,27 @@ static bool reserve_contacts(struct contact_list *l, size_t pairs,
   return true;
 }
 
-/* The squared distance falls by 2 h u.v at least, to first order; the second is
-   positive. */
-bool contact_subset_within(const struct contact_list *l, size_t i, size_t j,
-                           const struct contact_reach *reach) {
-  const double *p = reach->y + i * l->stride, *q = reach->y + j * l->stride;
+/* Whether rows p and q come nearer than most, where they approach for the time
+   of a reach: the squared distance falls by 2 h u.v at least, to first order;
+   the second is positive. */
+static inline bool rows_within(const double *p, const double *q, double most,
+                               double twice) {
   double u[3], v[3];
   vec3_sub(p + ROW_X, q + ROW_X, u);
   vec3_sub(p + ROW_V, q + ROW_V, v);
-  const double most = l->radius[i] + l->radius[j] + reach->gap;
-  const double approach = GSL_MIN(vec3_dot(u, v), 0);
-  return most > 0 &&
-         vec3_dot(u, u) + 2 * speed_grows * reach->h * approach <= most * most;
+  const double nearest = vec3_dot(u, u) + twice * GSL_MIN(vec3_dot(u, v), 0);
+  return nearest <= most * most && most > 0;
+}
+
+/* Twice the time that speeds as they are now would take to go as far. */
+static double twice_of(const struct contact_reach *reach) {
+  return 2 * speed_grows * reach->h;
+}
+
+bool contact_subset_within(const struct contact_list *l, size_t i, size_t j,
+                           const struct contact_reach *reach) {
+  return rows_within(reach->y + i * l->stride, reach->y + j * l->stride,
+                     l->radius[i] + l->radius[j] + reach->gap, twice_of(reach));
 }
 
 static bool wall_within(const struct contact_list *l, size_t contact,
@@ -222,6 +231,7 @@ int contact_subset_split(struct contact_list *near, struct contact_list *far,
                          const struct contact_list *from,
                          const struct contact_reach *reach) {
   struct contact_list *to[2] = {far, near};
+  const double twice = twice_of(reach);
   size_t pairs[2] = {0, 0}, walls[2] = {0, 0};
   if (copy_rows(near, from) != GSL_SUCCESS ||
       copy_rows(far, from) != GSL_SUCCESS)
@@ -231,11 +241,16 @@ int contact_subset_split(struct contact_list *near, struct contact_list *far,
       to[k]->near.first[i] = pairs[k];
       to[k]->wall_first[i] = walls[k];
     }
+    const double *p = reach->y + i * from->stride;
+    const double most = from->radius[i] + reach->gap;
     for (size_t q = from->near.first[i]; q < from->near.first[i + 1]; q++) {
       const uint32_t j = from->near.j[q];
-      const int k = contact_subset_within(from, i, j, reach);
-      to[k]->near.i[pairs[k]] = (uint32_t)i;
-      to[k]->near.j[pairs[k]++] = j;
+      const int k = rows_within(p, reach->y + j * from->stride,
+                                most + from->radius[j], twice);
+      /* no branch: which it is cannot be told ahead */
+      near->near.i[pairs[1]] = far->near.i[pairs[0]] = (uint32_t)i;
+      near->near.j[pairs[1]] = far->near.j[pairs[0]] = j;
+      pairs[k]++;
     }
     for (size_t q = from->wall_first[i]; q < from->wall_first[i + 1]; q++) {
       const int k = wall_within(from, q, reach);

@@ -21,7 +21,7 @@ enum { ESTIMATE_SERVES = 4 };
 enum { ESTIMATE_STAGES = 10 };
 
 /* A step of so many stages takes far contacts once. */
-enum { SPLIT_STAGES = 4 };
+enum { SPLIT_STAGES = 6 };
 
 /* Share of the tolerance that freezing a far contact may cost, and the largest
    h lambda of a mode that only frozen contacts hold. */
