@@ -129,6 +129,14 @@ static void print_row(struct table *table, struct frames *f,
   table_end_row(table);
 }
 
+static size_t smallest(const struct boxes *boxes) {
+  size_t least = 0;
+  for (size_t k = 1; k < boxes->count; k++)
+    if (box_volume(boxes->at[k]) < box_volume(boxes->at[least]))
+      least = k;
+  return least;
+}
+
 /* The boxes of a frame by options: the whole box or slabs of it. */
 static void choose_boxes(struct boxes *boxes, const struct frames *f,
                          const struct option_list *given, double until,
@@ -217,8 +225,7 @@ int verb_fraction(int argc, char **argv) {
       choose_boxes(&boxes, &frames, &box, until, slab);
     box_watch_see(&watch, &frames, &bed, !boxes_file && !box.count, boxes.count,
                   (const double(*)[6])boxes.at);
-    for (size_t k = 0; k < boxes.count; k++)
-      frame_check_box(&frames, &bed, boxes.at[k]);
+    frame_check_box(&frames, &bed, boxes.at[smallest(&boxes)]);
     table_frame(&table, columns.box ? TABLE_PARTS : TABLE_ROWS, names);
     for (size_t k = 0; k < boxes.count; k++)
       print_row(&table, &frames, &bed, k, boxes.count, boxes.at[k], &columns);
