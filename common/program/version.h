@@ -3,6 +3,6 @@
 #ifndef VERSION_H
 #define VERSION_H
 
-#define DEM_VERSION "0.2.0"
+#define DEM_VERSION "0.3.0"
 
 #endif
