@@ -20,9 +20,11 @@
 enum { HEIGHT, SPEED, RADIUS, CONTACTS, ID };
 
 const struct picture_color picture_colors[] = {
-    [HEIGHT] = {"height", "height (m)", "centre above the origin"},
+    [HEIGHT] = {"height", "height (m)", "centre above the origin",
+                .from_zero = false},
     [SPEED] = {"speed", "speed (m/s)", "of the centre", .from_zero = true},
-    [RADIUS] = {"radius", "radius (m)", "of the sphere"},
+    [RADIUS] = {"radius", "radius (m)", "of the sphere",
+                .from_zero = false},
     [CONTACTS] = {"contacts", "touching spheres", "how many touch the sphere",
                   .from_zero = true, .whole = true},
     [ID] = {"id", "id", "number of the sphere", .whole = true},
