@@ -109,12 +109,13 @@ check-quick: all $(B)/precision $(B)/stability $(TEST_PROGRAMS) ## those without
 	@B=$(B) tests/run.sh $(filter-out $(LONG_SCRIPTS),$(TEST_SCRIPTS)) \
 	  $(TEST_PROGRAMS)
 
-# The tests once more, with what gcc can find while they run: memory that is not
-# ours, behaviour that is undefined. Slow: for changes of the library.
+# The tests without studies once more, with what gcc can find while they run:
+# memory that is not ours, behaviour that is undefined. CHECK=check: all of them.
+CHECK ?= check-quick
 SANITIZED := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all \
   -fno-omit-frame-pointer
 sanitize: ## run the tests with the address and undefined-behaviour sanitizers
-	$(MAKE) check B=$(B)/sanitize CFLAGS='$(SANITIZED)'
+	$(MAKE) $(CHECK) B=$(B)/sanitize CFLAGS='$(SANITIZED)'
 
 tidy: ## what cppcheck, clang-tidy and gcc -fanalyzer find
 	tests/tidy.sh

@@ -164,7 +164,7 @@ if command -v strace >/dev/null &&
     "$B/analyze" export --format positions --quiet --output "$D/plain" \
     "$T/bed.csv" >"$T/out" 2>"$T/err"
   status=$?
-  refused 'a disk that fails' 1 'plain: Input/output error'
+  refused 'a disk that fails' 1 'plain: (Input/output|I/O) error'
 else
   echo 'skipped: fsync before rename (strace is not installed, or may not trace)'
 fi
