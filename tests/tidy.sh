@@ -15,6 +15,7 @@ cat >"$T/right" <<'END'
 cppcheck invalidPointerCast analyze/write_voxels.c: one buffer, of either type
 cppcheck legacyUninitvar common/dynamics/rates.c: an array that a call fills
 cppcheck uninitvar analyze/measure.c: an array that a call fills
+cppcheck uninitvar common/program/unpack.c: is filled up to its count
 cppcheck memleak common/files/bed_reader.c: the text is kept with its line
 clang-tidy bugprone-integer-division common/model/fill.c: a column of a grid is a whole number
 clang-tidy bugprone-sizeof-expression common/files/formats.c: a table of pointers
@@ -23,6 +24,8 @@ clang-tidy clang-analyzer-core.CallAndMessage analyze/export.c: each format has 
 clang-tidy clang-analyzer-core.UndefinedBinaryOperatorResult common/files/bed_reader.c: is set where the call before succeeds
 clang-tidy clang-analyzer-core.uninitialized.Assign common/geometry/volume.c: is set where a cell has an edge
 clang-tidy misc-no-recursion common/geometry/area.c: by size of sphere, as deep as sizes differ
+clang-tidy misc-no-recursion common/geometry/clearance.c: halves boxes down to a level
+clang-tidy clang-analyzer-unix.Malloc common/program/files.c: litter keeps the name of a folder
 clang-tidy misc-no-recursion common/geometry/voxels.c: halves boxes of voxels down to one
 fanalyzer -Wanalyzer-malloc-leak common/files/bed_io.c: the texts are kept in a key of the header
 fanalyzer -Wanalyzer-malloc-leak analyze/table.c: the text is kept in a cell

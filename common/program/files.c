@@ -199,8 +199,10 @@ void output_commit(struct output_file *f) {
     errno = error;
   if (!done || (f->partial && rename(f->partial, f->target) != 0))
     cannot_write(f->path);
-  if (!f->partial)
+  if (!f->partial) {
+    free(f->joined);
     return;
+  }
   litter_forget(f->partial);
   synchronize_directory(f->target);
   if (f->others)
