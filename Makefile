@@ -101,7 +101,7 @@ $(B)/tests/test_memory: WRAPPED := $(foreach f,malloc calloc realloc \
 	gsl_integration_glfixed_table_alloc,-Wl,--wrap=$(f))
 
 # Those that run studies and whole beds take most of the time.
-LONG_SCRIPTS := $(wildcard tests/test_{figures,settling}.sh)
+LONG_SCRIPTS := tests/test_figures.sh tests/test_settling.sh
 check: all $(B)/precision $(B)/stability $(TEST_PROGRAMS) ## run the tests, JOBS=2 at a time (minutes)
 	@B=$(B) tests/run.sh $(TEST_SCRIPTS) $(TEST_PROGRAMS)
 

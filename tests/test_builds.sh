@@ -82,6 +82,10 @@ check 'GSL by pkg-config, which goes first' grep -q -e '-from-pkg-config--libs' 
 check 'makefiles for make 3.81' test -z "$(grep -nE \
   '&:|::?:=|!=|\$\((file|guile|intcmp|let) |^\.ONESHELL' Makefile \
   $(find . -path ./build -prune -o -name '*.mk' -print))"
+plan check-quick >"$T/plan"
+check 'check-quick is without the long ones' test \
+  "$(grep -c 'tests/run.sh.*test_cli' "$T/plan")" = 1 -a -z \
+  "$(grep -E 'test_(figures|settling)\.sh' "$T/plan")"
 check 'a target for help that needs no compiler' test \
   "$(plan help CC=/nonexistent | wc -l)" -gt 0 -a ! -e "$T/b/config.mk"
 check_done
