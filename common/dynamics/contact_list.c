@@ -15,11 +15,12 @@ static const double build_cost = 4;
 /* The widest skin, in radii. */
 static const double most_skin = 2;
 
-/* From so many spheres on, rows are put in the order of space, so that
+/* From this number of spheres on, rows are put in the order of space, so that
    partners are near each other in memory. */
 enum { REORDER = 1024 };
 
-/* Spheres from which on threads share what is a few operations a sphere. */
+/* From this number of spheres on, threads share loops of a few operations per
+   sphere. */
 enum { WORTH_SHARING = 4096 };
 
 /* Zeroed; never NULL for want of size. */

@@ -70,16 +70,16 @@ INLINE void load_pair(const struct contact_list *list, const double *y,
   const double *p = y + i * stride, *q = y + j * stride;
   const double ri = has.uniform ? 1 : list->radius[i],
                rj = has.uniform ? 1 : list->radius[j];
-  b->nx[c] = p[0] - q[0];
-  b->ny[c] = p[1] - q[1];
-  b->nz[c] = p[2] - q[2];
-  b->vx[c] = p[3] - q[3];
-  b->vy[c] = p[4] - q[4];
-  b->vz[c] = p[5] - q[5];
+  b->nx[c] = p[ROW_X] - q[ROW_X];
+  b->ny[c] = p[ROW_X + 1] - q[ROW_X + 1];
+  b->nz[c] = p[ROW_X + 2] - q[ROW_X + 2];
+  b->vx[c] = p[ROW_V] - q[ROW_V];
+  b->vy[c] = p[ROW_V + 1] - q[ROW_V + 1];
+  b->vz[c] = p[ROW_V + 2] - q[ROW_V + 2];
   if (has.rotation) {
-    b->sx[c] = ri * p[6] + rj * q[6];
-    b->sy[c] = ri * p[7] + rj * q[7];
-    b->sz[c] = ri * p[8] + rj * q[8];
+    b->sx[c] = ri * p[ROW_W] + rj * q[ROW_W];
+    b->sy[c] = ri * p[ROW_W + 1] + rj * q[ROW_W + 1];
+    b->sz[c] = ri * p[ROW_W + 2] + rj * q[ROW_W + 2];
   }
   if (!has.uniform)
     b->gap[c] = -(ri + rj);
@@ -97,10 +97,10 @@ INLINE void load_four(const double *y, const uint32_t *i, const uint32_t *j,
     const double *q = y + j[l] * stride;
     u[l] = vec4_load(p) - vec4_load(q);
     if (has.rotation) {
-      w[l] = vec4_load(p + 4) + plus * vec4_load(q + 4);
-      b->sz[c + l] = p[8] + q[8];
+      w[l] = vec4_load(p + ROW_V + 1) + plus * vec4_load(q + ROW_V + 1);
+      b->sz[c + l] = p[ROW_W + 2] + q[ROW_W + 2];
     } else {
-      w[l] = vec4_load(p + 2) - vec4_load(q + 2);
+      w[l] = vec4_load(p + ROW_X + 2) - vec4_load(q + ROW_X + 2);
     }
   }
   transpose(u);
@@ -164,13 +164,13 @@ INLINE void load_walls(const struct contact_list *list, const double *y,
     b->ny[c] = -w->normal[1];
     b->nz[c] = -w->normal[2];
     b->gap[c] = wall_distance(w, p) - r;
-    b->vx[c] = p[3];
-    b->vy[c] = p[4];
-    b->vz[c] = p[5];
+    b->vx[c] = p[ROW_V];
+    b->vy[c] = p[ROW_V + 1];
+    b->vz[c] = p[ROW_V + 2];
     if (has.rotation) {
-      b->sx[c] = r * p[6];
-      b->sy[c] = r * p[7];
-      b->sz[c] = r * p[8];
+      b->sx[c] = r * p[ROW_W];
+      b->sy[c] = r * p[ROW_W + 1];
+      b->sz[c] = r * p[ROW_W + 2];
     }
   }
 }

@@ -18,7 +18,7 @@ struct changes {
   double *value;
 };
 
-/* What was found for an island, for as long as no other row joins it. */
+/* The outcome of an island, valid for as long as no other row joins it. */
 struct result {
   size_t lane;
   size_t changes, changes_end, trace, trace_end;

@@ -17,10 +17,10 @@
 enum { ESTIMATE_SERVES = 4 };
 
 /* The radius of the level above is too large for a level that is only a part of
-   it; an estimate of its own pays from so many stages on. */
+   it; from this number of stages on an estimate of its own pays. */
 enum { ESTIMATE_STAGES = 10 };
 
-/* A step of so many stages takes far contacts once. */
+/* From this number of stages on a step evaluates far contacts once. */
 enum { SPLIT_STAGES = 6 };
 
 /* Share of the tolerance that freezing a far contact may cost, and the largest

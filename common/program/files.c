@@ -173,7 +173,7 @@ void output_open(struct output_file *f, const char *path) {
     cannot_write(path);
 }
 
-/* What was written is on the disk, as far as it has one. */
+/* Has the disk keep the file, as far as there is a disk. */
 static bool synchronize(FILE *stream) {
   return fsync(fileno(stream)) == 0 || errno == EINVAL || errno == ENOTSUP;
 }

@@ -27,8 +27,8 @@ struct option_spec {
   enum option_type type;
   void *value; /* holds the default until it is set */
   double least, most;
-  /* NULL-terminated names; or those of a table of structs (OPTION_TABLE), each
-     so many bytes after the last, with its help so many bytes after it. */
+  /* NULL-terminated names; or those of a table of structs (OPTION_TABLE): bytes
+     from one name to the next, and from a name to its help. */
   const char *const *choices;
   size_t choice_size, choice_help;
   const char *unit, *help;

@@ -22,7 +22,7 @@ struct progress progress_begin(bool quiet);
 /* Is it time to look again? For work that tells often and has much to say. */
 bool progress_due(const struct progress *p);
 
-/* What is being done, for the line; any text until the next call. */
+/* Sets the activity that the line names; valid until the next call. */
 void progress_name(struct progress *p, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
