@@ -7,10 +7,9 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include "geometry/box.h"
-#include "measure.h"
 #include "measure/network.h"
 #include "program/shared_options.h"
-#include "table.h"
+#include "tabulate.h"
 #include "verbs.h"
 
 /* Without friction it takes at least 4 contacts to hold a sphere from all
@@ -353,27 +352,17 @@ int verb_contacts(int argc, char **argv) {
   if (set.degrees + set.overlaps + set.network > 1)
     die(EXIT_USAGE, "expected one of --degrees, --overlaps and --network");
 
-  struct frames frames;
-  struct bed bed = {0};
-  struct box_watch watch = {0};
-  frames_open(&frames, &input, argc, argv, operand);
-  struct table table;
-  table_open(&table, &frames, means);
-  while (frames_next(&frames, &bed)) {
-    struct scene scene = frame_scene(&frames, &bed);
-    if (set.box.count)
-      box_watch_see(&watch, &frames, &bed, false, 1,
-                    (const double(*)[6])set.box.at);
-    if (frames.first)
-      frame_warn_rewritten(&frames);
-    struct measured m = measure(&frames, &set, &scene, &bed);
-    print_frame(&table, &frames, &m);
+  struct tabulation t;
+  tabulation_open(&t, &input, means, argc, argv, operand);
+  while (tabulation_next(&t)) {
+    struct scene scene = frame_scene(&t.frames, &t.bed);
+    tabulation_see(&t, &set.box);
+    if (t.frames.first)
+      frame_warn_rewritten(&t.frames);
+    struct measured m = measure(&t.frames, &set, &scene, &t.bed);
+    print_frame(&t.table, &t.frames, &m);
     measured_free(&m);
     scene_free(&scene);
   }
-  table_close(&table);
-  box_watch_end(&watch);
-  frames_close(&frames);
-  finish_output();
-  return EXIT_DONE;
+  return tabulation_close(&t);
 }

@@ -17,7 +17,7 @@
 #define SOLID " bridge reach walls thickness"
 #define VOXELS "box cells binary distance type threads" SOLID
 
-/* What can be written. */
+/* The formats that can be written. */
 static const struct format {
   const char *name, *help;
   const char *takes; /* options that not every format takes */
@@ -223,7 +223,7 @@ static void write_one(FILE *out, const char *name, const struct request *q,
     q->format->write(out, &f, &q->write);
 }
 
-/* What was written, once it is: the last of several frames. */
+/* Reports the written file: the last of several frames. */
 static void say(const struct request *q, struct shape *s) {
   if (!q->write.quiet && s->frames)
     shape_say(s);

@@ -12,9 +12,8 @@
 #include "geometry/box.h"
 #include "program/files.h"
 #include "frames.h"
-#include "measure.h"
 #include "program/command_line.h"
-#include "table.h"
+#include "tabulate.h"
 #include "verbs.h"
 #include "geometry/volume.h"
 
@@ -208,32 +207,25 @@ int verb_fraction(int argc, char **argv) {
     box.at[5] = until;
   box_check(&box);
   struct boxes boxes = {0};
-  struct box_watch watch = {0};
   if (boxes_file)
     read_boxes(&boxes, boxes_file);
   columns.box = boxes_file || slab > 0;
 
-  struct frames frames;
-  struct bed bed = {0};
-  frames_open(&frames, &input, argc, argv, operand);
   char names[120];
-  struct table table;
   set_names(&columns, names, sizeof names);
-  table_open(&table, &frames, mean);
-  while (frames_next(&frames, &bed)) {
+  struct tabulation t;
+  tabulation_open(&t, &input, mean, argc, argv, operand);
+  while (tabulation_next(&t)) {
     if (!boxes_file)
-      choose_boxes(&boxes, &frames, &box, until, slab);
-    box_watch_see(&watch, &frames, &bed, !boxes_file && !box.count, boxes.count,
-                  (const double(*)[6])boxes.at);
-    frame_check_box(&frames, &bed, boxes.at[smallest(&boxes)]);
-    table_frame(&table, columns.box ? TABLE_PARTS : TABLE_ROWS, names);
+      choose_boxes(&boxes, &t.frames, &box, until, slab);
+    box_watch_see(&t.watch, &t.frames, &t.bed, !boxes_file && !box.count,
+                  boxes.count, (const double(*)[6])boxes.at);
+    frame_check_box(&t.frames, &t.bed, boxes.at[smallest(&boxes)]);
+    table_frame(&t.table, columns.box ? TABLE_PARTS : TABLE_ROWS, names);
     for (size_t k = 0; k < boxes.count; k++)
-      print_row(&table, &frames, &bed, k, boxes.count, boxes.at[k], &columns);
+      print_row(&t.table, &t.frames, &t.bed, k, boxes.count, boxes.at[k],
+                &columns);
   }
-  table_close(&table);
-  box_watch_end(&watch);
-  frames_close(&frames);
   free(boxes.at);
-  finish_output();
-  return EXIT_DONE;
+  return tabulation_close(&t);
 }

@@ -69,8 +69,8 @@ void frames_formats(char *text, size_t size);
 
 /* The next frame, which takes the place of b's last one; those without spheres
    are passed over unless they may be empty. False at the end of the last file;
-   exits with one line on bad input. What is no error but should be known goes
-   to standard error. */
+   exits with one line on bad input. Remarks that are no errors go to
+   standard error. */
 bool frames_next(struct frames *f, struct bed *b);
 
 /* The keys read so far, "t" and "status" among them (bed_header_get); none in

@@ -102,8 +102,8 @@ static void spheres_span(const struct bed *b, double span[6]) {
 static const double much_wider = 0.1;
 
 static const char *box_text(const double box[6], char *text, size_t size) {
-  snprintf(text, size, "%.10g,%.10g,%.10g,%.10g,%.10g,%.10g", box[0], box[1], box[2],
-           box[3], box[4], box[5]);
+  snprintf(text, size, "%.10g,%.10g,%.10g,%.10g,%.10g,%.10g", box[0], box[1],
+           box[2], box[3], box[4], box[5]);
   return text;
 }
 

@@ -30,8 +30,8 @@ struct scene frame_scene(const struct frames *f, const struct bed *b);
 void frame_warn_rewritten(const struct frames *f);
 
 /* Puts the faces of a box where the header has walls across an axis, and says
-   of each face whether it has; the last of several walls counts. What is not
-   six numbers is no wall. */
+   of each face whether it has; the last of several walls counts. A list of
+   other than six numbers is no wall. */
 void header_walls(const struct bed_header *h, double box[6], bool walled[6]);
 
 /* The bottom cube of the base that the header's walls enclose: on the floor,

@@ -8,9 +8,8 @@
 #include <gsl/gsl_math.h>
 #include "measure/bond_order.h"
 #include "geometry/box.h"
-#include "measure.h"
 #include "program/shared_options.h"
-#include "table.h"
+#include "tabulate.h"
 #include "verbs.h"
 
 struct order {
@@ -149,21 +148,11 @@ int verb_order(int argc, char **argv) {
   const int operand = options_parse(&program, argc, argv);
   box_check(&set.box);
 
-  struct frames frames;
-  struct bed bed = {0};
-  struct box_watch watch = {0};
-  frames_open(&frames, &input, argc, argv, operand);
-  struct table table;
-  table_open(&table, &frames, mean);
-  while (frames_next(&frames, &bed)) {
-    if (set.box.count)
-      box_watch_see(&watch, &frames, &bed, false, 1,
-                    (const double(*)[6])set.box.at);
-    print_frame(&table, &frames, &set, &bed);
+  struct tabulation t;
+  tabulation_open(&t, &input, mean, argc, argv, operand);
+  while (tabulation_next(&t)) {
+    tabulation_see(&t, &set.box);
+    print_frame(&t.table, &t.frames, &set, &t.bed);
   }
-  table_close(&table);
-  box_watch_end(&watch);
-  frames_close(&frames);
-  finish_output();
-  return EXIT_DONE;
+  return tabulation_close(&t);
 }

@@ -23,8 +23,7 @@ const struct picture_color picture_colors[] = {
     [HEIGHT] = {"height", "height (m)", "centre above the origin",
                 .from_zero = false},
     [SPEED] = {"speed", "speed (m/s)", "of the centre", .from_zero = true},
-    [RADIUS] = {"radius", "radius (m)", "of the sphere",
-                .from_zero = false},
+    [RADIUS] = {"radius", "radius (m)", "of the sphere", .from_zero = false},
     [CONTACTS] = {"contacts", "touching spheres", "how many touch the sphere",
                   .from_zero = true, .whole = true},
     [ID] = {"id", "id", "number of the sphere", .whole = true},
@@ -108,7 +107,7 @@ char *picture_script(const char *name) {
       name);
 }
 
-/* What is drawn. */
+/* Marks of the picture */
 
 /* The row of picture_colors that the user named. */
 static size_t chosen_color(const struct picture *p) {

@@ -11,9 +11,8 @@
 #include <gsl/gsl_math.h>
 #include "geometry/area.h"
 #include "frames.h"
-#include "measure.h"
 #include "program/command_line.h"
-#include "table.h"
+#include "tabulate.h"
 #include "verbs.h"
 
 static const char *const axes[] = {"x", "y", "z", NULL};
@@ -174,28 +173,20 @@ int verb_profile(int argc, char **argv) {
   w.cylinder = cylinder.count ? cylinder.at : NULL;
   if (w.cylinder && !(w.cylinder[2] > 0))
     die(EXIT_USAGE, "--cylinder: expected a radius above 0");
-  struct frames frames;
-  struct bed bed = {0};
-  struct box_watch watch = {0};
-  frames_open(&frames, &input, argc, argv, operand);
   char names[40];
-  struct table table;
   snprintf(names, sizeof names, "t\t%s\tsum\tunion",
            w.wall > 0   ? "distance"
            : w.cylinder ? "radius"
                         : axis);
-  table_open(&table, &frames, mean);
-  while (frames_next(&frames, &bed)) {
-    frame_choose_box(&frames, &box, w.box);
+  struct tabulation t;
+  tabulation_open(&t, &input, mean, argc, argv, operand);
+  while (tabulation_next(&t)) {
+    frame_choose_box(&t.frames, &box, w.box);
     check_wall(&w);
-    box_watch_see(&watch, &frames, &bed, !box.count, 1,
+    box_watch_see(&t.watch, &t.frames, &t.bed, !box.count, 1,
                   (const double(*)[6])w.box);
-    table_frame(&table, TABLE_PARTS, names);
-    print_profile(&table, &frames, &bed, &w, points);
+    table_frame(&t.table, TABLE_PARTS, names);
+    print_profile(&t.table, &t.frames, &t.bed, &w, points);
   }
-  table_close(&table);
-  box_watch_end(&watch);
-  frames_close(&frames);
-  finish_output();
-  return EXIT_DONE;
+  return tabulation_close(&t);
 }

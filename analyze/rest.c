@@ -8,11 +8,10 @@
 #include <gsl/gsl_statistics.h>
 #include "geometry/box.h"
 #include "dynamics/dynamics.h"
-#include "measure.h"
 #include "measure/network.h"
 #include "model/rest.h"
 #include "program/shared_options.h"
-#include "table.h"
+#include "tabulate.h"
 #include "verbs.h"
 #include "geometry/volume.h"
 
@@ -60,7 +59,7 @@ static struct energies energies(const struct frames *f, const struct scene *s,
   return e;
 }
 
-/* What is kept from one frame to the next of its file. */
+/* State kept from one frame to the next of its file. */
 struct seen {
   struct rest_watch watch;
   double t, share; /* of the frame before */
@@ -154,18 +153,10 @@ int verb_rest(int argc, char **argv) {
   const int operand = options_parse(&program, argc, argv);
   box_check(&given);
 
-  struct frames frames;
-  struct bed bed = {0};
+  struct tabulation t;
   struct seen seen = {0};
-  struct box_watch boxes = {0};
-  frames_open(&frames, &input, argc, argv, operand);
-  struct table table;
-  table_open(&table, &frames, mean);
-  while (frames_next(&frames, &bed))
-    print_frame(&table, &frames, &given, &bed, &boxes, &seen);
-  table_close(&table);
-  box_watch_end(&boxes);
-  frames_close(&frames);
-  finish_output();
-  return EXIT_DONE;
+  tabulation_open(&t, &input, mean, argc, argv, operand);
+  while (tabulation_next(&t))
+    print_frame(&t.table, &t.frames, &given, &t.bed, &t.watch, &seen);
+  return tabulation_close(&t);
 }

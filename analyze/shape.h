@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What export hands over of a frame: its spheres, shrunk and bridged as the
+/* A frame as export hands it over: its spheres, shrunk and bridged as the
    client's mesher wants them, its container, all in the client's units and
    place, and the exact solid fraction of that. Tested in tests/test_export.sh
    and tests/test_handover.sh. */
@@ -53,14 +53,15 @@ void shape_make(struct shape *s, const struct shape_options *o,
 /* Both are to be had from then on. */
 void shape_measure(struct shape *s);
 
-/* What a format says besides. */
+/* Adds a remark of the format. */
 void shape_add(struct shape *s, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
 /* All of that, on a line of standard error. */
 void shape_say(struct shape *s);
 
-/* What --gap and --bridge did, for headers; NULL if they were not there. */
+/* The effect of --gap and --bridge, for headers; NULL if they were not given.
+ */
 const char *shape_note(struct shape *s);
 
 /* The box that holds the solid, without walls; infinite without spheres. */

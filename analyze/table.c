@@ -82,7 +82,7 @@ static void add(const struct table *t, struct table_mean *m, double x) {
   c->squares += off * (x - c->mean);
 }
 
-/* What comes before a field: the file, or a tab. */
+/* Writes the start of a field: the file, or a tab. */
 static void begin_field(const struct table *t, const char *file) {
   assert(t->column < t->columns);
   if (t->column)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What binary formats share: byte order and the frame of VTK's XML. */
+/* Shared by binary formats: byte order and the frame of VTK's XML. */
 #include <math.h>
 #include <string.h>
 #include "program/options.h"

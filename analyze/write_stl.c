@@ -317,7 +317,7 @@ static void write_bodies(FILE *out, const struct shape *s,
          share, o->equal_volume ? "" : " (--equal-volume: all of it)");
 }
 
-/* What a merged surface is written to, and its volume, times 6, as it comes
+/* The file of a merged surface, and its volume, times 6, as it comes
    out in single precision; from a corner, which keeps digits. */
 struct merged {
   FILE *out;

@@ -33,7 +33,7 @@ static void narrow(const struct write_options *o, double *value, size_t count) {
       ((float *)value)[i] = (float)value[i];
 }
 
-/* What a grid holds, as it is written. */
+/* The values of a grid, as they are written. */
 struct told {
   struct parts *parts;
   bool *solid; /* of a row */

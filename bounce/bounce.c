@@ -29,7 +29,7 @@ struct bounce {
   double deepest; /* height that its energy lets it reach (m) */
 };
 
-/* What the motion has left, as settle's watch has it: the sphere's energy
+/* Energy that is left, as settle's watch has it: the sphere's energy
    without gravity's, with rho(0) F/kappa for the contact's. */
 static int watch_energy(struct bounce *b) {
   const double *y = integrate_state(b->it);
@@ -84,7 +84,7 @@ static void start(struct bounce *b, struct run_clock begun, bool quiet) {
   watch_energy(b);
 }
 
-/* What is wrong ends the run. */
+/* A fault ends the run. */
 static int fail(struct bounce *b, const char *what, const char *page) {
   fflush(stdout);
   run_watch_say(b->watch, "t=%.6g: %s (docs/stability.md, \"%s\")",

@@ -57,8 +57,8 @@ static void fail(struct run *r, double t, const struct watch_finding *f) {
   r->failed = true;
 }
 
-/* The state at a time within the last step as a frame, looked at. What is wrong
-   with one does not end the run: what comes later may be of interest. */
+/* The state at a time within the last step as a frame, checked. A fault of one
+   frame does not end the run: later ones may be of interest. */
 static void write_state(struct run *r, double t, bool last) {
   struct watch_finding f;
   if (integrate_at(r->motion->integrator, t, r->y) != GSL_SUCCESS)

@@ -166,7 +166,7 @@ static int step_stiff(struct watch *w, struct watch_finding *f) {
 
 /* --- contacts and energy ---------------------------------------------------*/
 
-/* What the motion has left: kinetic energy, gravity's and rho(0) F/kappa of
+/* Energy that is left: kinetic energy, gravity's and rho(0) F/kappa of
    contacts. It never grows: a contact's force on the approach is more than
    rho(0) F and when the spheres part less, and friction takes. Without friction
    and at e = 1 it is constant. Forces end at lmax, so their energy begins

@@ -14,17 +14,7 @@
 #include "dynamics/contact_subset.h"
 #include "dynamics/islands.h"
 #include "dynamics/rates.h"
-
-static double *numbers(size_t n) {
-  double *x = calloc(n + 1, sizeof *x);
-  if (!x)
-    abort();
-  return x;
-}
-
-static double uniform(gsl_rng *rng, double a, double b) {
-  return a + (b - a) * gsl_rng_uniform(rng);
-}
+#include "sample.h"
 
 struct sample {
   struct contact_list *list;
@@ -207,10 +197,11 @@ static void test_split(gsl_rng *rng, unsigned long seed) {
     const size_t i = far->near.i[q], j = far->near.j[q];
     const double *p = s.y + i * stride, *w = s.y + j * stride;
     double least = GSL_POSINF;
-    for (double t = 0; t <= reach.h; t += reach.h / 16 + 1e-9) {
+    for (size_t k = 0; k <= 16; k++) {
+      const double t = (double)k / 16 * reach.h;
       double u[3];
-      for (size_t k = 0; k < 3; k++)
-        u[k] = p[k] - w[k] + t * (p[ROW_V + k] - w[ROW_V + k]);
+      for (size_t c = 0; c < 3; c++)
+        u[c] = p[c] - w[c] + t * (p[ROW_V + c] - w[ROW_V + c]);
       least = GSL_MIN(least, vec3_norm(u));
     }
     CHECK(least >= far->radius[i] + far->radius[j] + reach.gap);

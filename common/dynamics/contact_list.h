@@ -15,7 +15,7 @@
 #include "model/bed.h"
 #include "model/scene.h"
 
-/* What the contacts of a scene need. */
+/* Features of the contacts of a scene. */
 struct contact_features {
   bool friction, rotation;
   bool elastic; /* e = 1: no rebound function */

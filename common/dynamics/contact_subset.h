@@ -7,9 +7,9 @@
 
 #include "dynamics/contact_list.h"
 
-/* What comes nearer than gap (m) within the time h (s) from the state y, whose
-   rows are those of the list, ghosts included. Speeds are taken to grow by up
-   to 30 % on the way. */
+/* Contacts that come nearer than gap (m) within the time h (s) from the state
+   y, whose rows are those of the list, ghosts included. Speeds are taken to
+   grow by up to 30 % on the way. */
 struct contact_reach {
   const double *y;
   double h, gap;

@@ -67,7 +67,7 @@ int dynamics_jacobian(double t, const double y[], double *dfdy, double dfdt[],
 double dynamics_step_limit(const struct dynamics *d, const double y[],
                            const double dydt[], double travel);
 
-/* What errors of the unknowns are measured in, per m/s of tolerance: gaps in
+/* Units of the errors of the unknowns, per m/s of tolerance: gaps in
    1/kappa for the speed that similar spheres have where the paper's have 1 m/s,
    velocities in m/s, spins in m/s of the surface. dimension doubles. */
 void dynamics_scale(const struct dynamics *d, double scale[]);
@@ -77,7 +77,7 @@ void dynamics_scale(const struct dynamics *d, double scale[]);
 double dynamics_kinetic(const struct dynamics *d, const double y[]);
 double dynamics_potential(struct dynamics *d, const double y[]);
 
-/* What the contacts of a state say. May rebuild the pair list. GSL_SUCCESS, or
+/* Surveys the contacts of a state. May rebuild the pair list. GSL_SUCCESS, or
    an error as of dynamics_rhs. */
 int dynamics_survey(struct dynamics *d, const double y[], struct survey *s);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What struct dynamics is, for the integrators of this room. */
+/* Members of struct dynamics, for the integrators of this room. */
 #ifndef DYNAMICS_INTERNAL_H
 #define DYNAMICS_INTERNAL_H
 

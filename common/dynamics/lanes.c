@@ -17,8 +17,8 @@ static const double most_flagged = 0.4, most_planned = 0.2;
    level's step is worth. */
 static const double refined_row = 2.5, overhead_rows = 6;
 
-/* What a step is shortened and lengthened by at most, and the share of the
-   step that just meets the tolerance. */
+/* Factors by which a step is shortened and lengthened at most, and the share of
+   the step that just meets the tolerance. */
 static const double shorten = 0.1, lengthen = 5, careful = 0.8;
 
 /* 0.4 h |change of f| that a partner may have, in tolerances. The change grows

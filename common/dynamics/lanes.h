@@ -10,8 +10,8 @@
 
 enum { LANES_LEVELS = 3 };
 
-/* What the rows of an island change in the rates of their partners: a row of
-   the level above each, and its change, as long as a row. */
+/* Changes by the rows of an island in the rates of their partners: a row of the
+   level above each, and its change, as long as a row. */
 struct changes {
   size_t count, size;
   uint32_t *row;
@@ -33,7 +33,7 @@ struct results {
   size_t size;
 };
 
-/* What one thread works with. Level 0 is the same for all. */
+/* Workspace of one thread. Level 0 is the same for all. */
 struct lane {
   struct lanes *all;
   size_t number;
@@ -67,8 +67,8 @@ double lanes_choose(const struct lanes *all, double most);
    GSL_SUCCESS; GSL_FAILURE if none is short enough; GSL_ENOMEM. */
 int lanes_step(struct lanes *all, double t, double *h);
 
-/* What a step after one of h is at most, and what one that has to be taken
-   again is at least. */
+/* The longest step after one of h, and the shortest in place of one that has to
+   be taken again. */
 double lanes_longest(double h);
 double lanes_shortest(double h);
 

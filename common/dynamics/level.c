@@ -370,7 +370,8 @@ static void copy_row(size_t stride, const double *from, size_t i, double *to,
   memcpy(to + at * stride, from + i * stride, stride * sizeof *to);
 }
 
-/* What a row of l does in its step, or went on doing as a ghost. */
+/* The motion of each ghost of child during a step of l, as a cubic in time:
+   that of a row of l, or of a ghost of l. */
 static void make_ghosts(struct level *child, const struct level *l, double t,
                         double h) {
   const size_t stride = l->stride, n = child->ghosts * stride;

@@ -12,7 +12,7 @@
 #include "steppers/chebyshev.h"
 #include "steppers/power.h"
 
-/* What the levels of a bed that one thread works on share. */
+/* Shared by the levels of a bed that one thread works on. */
 struct level_setting {
   struct dynamics *dynamics;
   struct chebyshev *chebyshev;
@@ -97,7 +97,7 @@ int level_islands(struct level *l, double t, double h);
 int level_refine(struct level *child, const struct level *l, size_t island,
                  double t, double h);
 
-/* What the rows of child, now at t + h, change in the rates at the end of l's
+/* Changes by the rows of child, now at t + h, in the rates at the end of l's
    step: change gets a row for each ghost of child. GSL_SUCCESS,
    GSL_EBADFUNC. */
 int level_feedback(struct level *child, const struct level *l, double t,

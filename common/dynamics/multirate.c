@@ -8,7 +8,7 @@
 #include "dynamics/lanes.h"
 
 /* A step goes through the whole list so often: to split it, for what is far and
-   at its end. What else it evaluates does not depend on the list's skin. */
+   at its end. Its other evaluations do not depend on the list's skin. */
 enum { WHOLE_EVALUATIONS = 3 };
 
 struct multirate {

@@ -69,7 +69,7 @@ static int read_bytes(struct bed_reader *r, size_t begin, size_t *length) {
   return n > begin ? GSL_SUCCESS : GSL_EOF;
 }
 
-/* What is no text can be told by its first bytes. */
+/* A file that is no text is known by its first bytes. */
 static int check_first_bytes(struct bed_reader *r, size_t length) {
   static const struct {
     const char *bytes, *what;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the readers of all formats share: lines with their numbers, messages
+/* Shared by the readers of all formats: lines with their numbers, messages
    that name them, fields, rows, frames. It knows of no format. For
    files/read_*.c and formats.c; others use formats.h. */
 #ifndef BED_READER_H

@@ -315,7 +315,7 @@ static enum column component_of(const struct words *words,
   return v ? (enum column)(v->first + (unsigned)axis) : COLUMN_OTHER;
 }
 
-/* What a column is called */
+/* Names of columns */
 
 struct meaning {
   double unit;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the columns of a table mean: by the names that other programs give them,
-   by their units and by the columns beside them. Two columns that may have the
-   same meaning are an error, which names both. Safe in any thread. Tested in
-   tests/test_columns.c. */
+/* Meanings of the columns of a table: by the names that other programs give
+   them, by their units and by the columns beside them. Two columns that may
+   have the same meaning are an error, which names both. Safe in any thread.
+   Tested in tests/test_columns.c. */
 #ifndef COLUMNS_H
 #define COLUMNS_H
 

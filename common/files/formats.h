@@ -37,8 +37,8 @@ int bed_reader_next(struct bed_reader *r, struct bed *b);
 const struct bed_header *bed_reader_header(const struct bed_reader *r);
 const char *bed_reader_error(const struct bed_reader *r);
 
-/* What a user should know of the frame just read, or of the end, although it
-   is no error: "name:line: ..."; NULL: nothing. */
+/* A remark on the frame just read, or on the end, that is no error but should
+   reach the user: "name:line: ..."; NULL: none. */
 const char *bed_reader_note(const struct bed_reader *r);
 
 /* Is it a bed as bed_io.h has them, with parameters and walls? */

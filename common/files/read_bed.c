@@ -126,7 +126,7 @@ static int finish_frame(struct bed_reader *r, struct bed *b) {
   return reader_frame(r, b, s->t);
 }
 
-/* What stands at the end of a bed decides whether it is whole. */
+/* The last line of a bed decides whether it is whole. */
 static int check_end(struct bed_reader *r) {
   const struct bed_state *s = r->state;
   const char *status = bed_header_get(&r->header, "status");

@@ -12,8 +12,8 @@
 
 enum { MOST_TYPES = 256 };
 
-/* What a row of the section Atoms begins with; up to three whole numbers, of
-   periodic images, may follow. */
+/* The fields that a row of the section Atoms begins with; up to three whole
+   numbers, of periodic images, may follow. */
 static const struct style {
   const char *name;
   size_t count, type; /* fields; which one is the atom's type, from 0 */

@@ -150,7 +150,7 @@ double area_sum(size_t n, const double *c, const double *r,
   return sum;
 }
 
-/* What disc i has of its power cell and the rectangle. lines: room for 4 more
+/* Area of disc i in its power cell and the rectangle. lines: room for 4 more
    than the most partners. */
 static double disc_cell(const struct power *p, size_t i,
                         const double rectangle[4], double (*lines)[3]) {
@@ -403,7 +403,7 @@ static struct force in_force(const struct patch *p, const struct shell_work *w,
 }
 
 /* A way over the sphere's azimuths: since `from` the same bounds are in force.
-   What lies between is added up when others come. */
+   The stretch between is added up when others come. */
 struct sweep {
   const struct patch *p;
   const struct shell_work *w;

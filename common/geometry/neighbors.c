@@ -38,7 +38,7 @@ struct level {
   uint32_t *member;     /* count */
 };
 
-/* What a search works on. */
+/* The points that a search works on. */
 struct cloud {
   size_t n, stride;
   const double *x, *radius;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a bridge adds. Along a line at the distance rho from the axis, the
-   collar between spheres i and j at the distance d ends at both surfaces; it
-   is d - s_i - s_j long there, s = sqrt(r^2 - rho^2). That grows with rho, from
-   0 at rho_0, the radius of the circle in which the spheres meet, or from the
-   gap at rho_0 = 0 if they do not. So
+/* The volume that a bridge adds. Along a line at the distance rho from the
+   axis, the collar between spheres i and j at the distance d ends at both
+   surfaces; it is d - s_i - s_j long there, s = sqrt(r^2 - rho^2). That grows
+   with rho, from 0 at rho_0, the radius of the circle in which the spheres
+   meet, or from the gap at rho_0 = 0 if they do not. So
 
      V = int_rho_0^X 2 pi rho (d - s_i - s_j) d rho,
 
@@ -182,7 +182,7 @@ static double ring_left(double rho, void *params) {
   return rho * ring;
 }
 
-/* What is left of a collar; adds to *error. */
+/* The part of a collar's volume that is left; adds to *error. */
 static int collar_left(struct disturbed *q, double whole, double *left,
                        double *error) {
   const struct collar *c = q->c;
@@ -222,8 +222,8 @@ static int collar_left(struct disturbed *q, double whole, double *left,
   return status;
 }
 
-/* What the bridges add to the spheres. near: balls of all spheres and, behind
-   them, all collars. */
+/* The volume that bridges add to the spheres. near: balls of all spheres and,
+   behind them, all collars. */
 static int sum_collars(const struct solid *s, const double box[6],
                        const struct collar *collar, const size_t *start,
                        const uint32_t *partner, size_t *scratch, double *sum,

@@ -15,8 +15,9 @@ struct surface {
   size_t nodes[3];
   /* Of two layers of nodes, which are inside. */
   unsigned char *inside[2];
-  /* What may meet the cubes of a row in the layer in work: spheres, then
-     bridges; those of row j are member[start[j]] ... member[start[j+1] - 1]. */
+  /* Members that may meet the cubes of a row in the layer in work: spheres,
+     then bridges; those of row j are member[start[j]] ... member[start[j+1] -
+     1]. */
   size_t *start, *member, members_size;
 };
 

@@ -8,7 +8,7 @@
    share a face and the whole cut of it, so that every edge of the surface
    belongs to two triangles, in opposite directions, however the solid is shaped
    (marching tetrahedra; Payne, Toga, IEEE Computer Graphics & Applications
-   10(6) (1990) 33). What is thinner than a step may be missed.
+   10(6) (1990) 33). Parts thinner than a step may be missed.
 
    Corners are on the spheres, so that triangles cut off what is curved, and
    fill the wedges where spheres meet: the volume is off by some (step/r)^2 of

@@ -244,7 +244,7 @@ double volume_sum(size_t n, const double *x, const double *r,
   return sum.total + sum.lost;
 }
 
-/* What ball i has of its power cell and the box. planes: room for 6 more than
+/* Volume of ball i in its power cell and the box. planes: room for 6 more than
    the most partners. */
 static double cell_volume(const struct power *p, size_t i, const double box[6],
                           double (*planes)[4]) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Solid fractions. A sphere meets the cells of a row along x in one run and
    holds those of a shorter run whole, so that two roots tell where its surface
-   is. What is left, a surface's own cells, takes the time. */
+   is. The cells that a surface cuts take the time. */
 #include "geometry/voxels.h"
 
 #include <math.h>

@@ -11,7 +11,7 @@
 /* The paper's three variants (section 3). */
 enum scene_model { SCENE_BASIC, SCENE_FRICTION, SCENE_ROTATION };
 
-/* What they have, by number; the last has no name. */
+/* Their features, by number; the last has no name. */
 struct scene_variant {
   const char *name, *help;
   bool friction, rotation;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the operating system and the compiler's runtime tell, each in a way of
-   its own. Safe from any thread. Tested in tests/test_platform.c. */
+/* Facts that each operating system and compiler's runtime tells in a way of its
+   own. Safe from any thread. Tested in tests/test_platform.c. */
 #ifndef SYSTEM_H
 #define SYSTEM_H
 

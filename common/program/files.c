@@ -58,7 +58,7 @@ static void claim_stream(const char *name, FILE *stream, bool output) {
     claim((struct use){name, output, st.st_dev, st.st_ino, NULL});
 }
 
-/* What standard output goes to is written, before anything else is opened. */
+/* Takes the file of standard output as written, before another is opened. */
 static void claim_standard_output(void) {
   static bool claimed;
   if (!claimed)

@@ -36,7 +36,7 @@ static bool of_all_verbs(void) {
   return verbs && !program_verb();
 }
 
-/* What stands for the value. */
+/* The word that stands for the value. */
 static const char *placeholder(const struct option_spec *o) {
   switch (o->type) {
   case OPTION_FLAG:

@@ -34,8 +34,9 @@ _Noreturn void help_print_version(const struct program *p);
 _Noreturn void help_print_verbs(const struct verbs *v);
 /* The man page of the program or of its verb, in roff. */
 _Noreturn void help_print_man(const struct program *p);
-/* What a shell completes: for each option a line with "--NAME", its kind and
-   its choices, separated by tabs; for a program with verbs also their names. */
+/* Prints the words that a shell completes: for each option a line with
+   "--NAME", its kind and its choices, separated by tabs; for a program with
+   verbs also their names. */
 _Noreturn void help_print_completion(const struct program *p);
 
 #endif

@@ -6,7 +6,7 @@
 
 #include "steppers/integrate.h"
 
-/* What --help says of --control and --tol where they are left open: the
+/* Text of --help for --control and --tol where they are left open: the
    defaults of steppers/integrate.h's tables. */
 void integration_control_unset(char *text, size_t size);
 void integration_tol_unset(char *text, size_t size);
@@ -17,7 +17,7 @@ void integration_tol_unset(char *text, size_t size);
    many spheres. */
 void integration_check(const struct integrate_options *o, size_t spheres);
 
-/* What stopped a run, by the code of integrate_step. */
+/* The reason why a run stopped, by the code of integrate_step. */
 const char *integration_error(const struct integrate_options *o, int status);
 
 #endif

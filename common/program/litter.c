@@ -12,8 +12,8 @@
 #include <unistd.h>
 #include "program/messages.h"
 
-/* What a signal handler reads may change at any moment, so places are added in
-   one store of a pointer and never freed: one without a path is used again. */
+/* A signal handler may read the list at any moment, so places are added in one
+   store of a pointer and never freed: one without a path is used again. */
 struct place {
   const char *_Atomic path;
   struct place *next; /* older */
@@ -23,7 +23,7 @@ static atomic_long helper; /* pid */
 static atomic_bool deferred;
 static atomic_int asked;
 
-/* Only what a signal handler may call. */
+/* Calls only functions that a signal handler may call. */
 static void remove_all(void) {
   const long child = atomic_exchange(&helper, 0);
   if (child > 0) {

@@ -32,7 +32,7 @@ struct option_spec {
   const char *const *choices;
   size_t choice_size, choice_help;
   const char *unit, *help;
-  /* What --help says of the default where the value is none; or NULL. */
+  /* Text of --help for the default where the value is none; or NULL. */
   void (*unset)(char *text, size_t size);
   bool parameter; /* of the scene: stands in a bed's header */
   bool given;     /* set from the command line */

@@ -9,7 +9,7 @@
 #include "program/options.h"
 #include "model/scene.h"
 
-/* What options say of a scene in other words than struct scene. */
+/* Options that describe a scene in other words than struct scene. */
 struct scene_words {
   const char *model;          /* name of one of scene_models */
   struct option_list gravity; /* one number, downwards, or three */

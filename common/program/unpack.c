@@ -151,6 +151,8 @@ void unpack_close(struct unpack *u) {
   if (u->packed != stdin)
     fclose(u->packed);
   if (whole && status != 0)
-    die(EXIT_INPUT, "%s: %s cannot unpack it whole: it is cut short or "
-        "damaged", u->name, u->program);
+    die(EXIT_INPUT,
+        "%s: %s cannot unpack it whole: it is cut short or "
+        "damaged",
+        u->name, u->program);
 }

@@ -47,7 +47,7 @@ struct integrate_method {
   bool layout;    /* needs to know the rows' positions */
   bool adapts;    /* to stiffness: it has no limit of stability */
   bool half;      /* the derivative it hands on is that of the half step */
-  /* What a new step is told of the problem, or NULL. */
+  /* Tells a new step of the problem, or NULL. */
   void (*prepare)(gsl_odeiv2_step *s, const struct integrate_problem *p);
 };
 
@@ -92,7 +92,7 @@ struct integrate_engine {
 
 struct integrate_problem {
   gsl_odeiv2_system system;
-  /* What standard control measures each unknown's error in: dimension. */
+  /* Unit of each unknown's error in standard control: dimension doubles. */
   const double *scale;
   /* Unknowns of a row, and the number of positions that it begins with, for
      methods that tell positions from velocities. */
@@ -148,7 +148,7 @@ struct integrate_view integrate_view(const struct integrator *it);
 /* The state of the problem's own method, or NULL. */
 const void *integrate_engine(const struct integrator *it);
 
-/* What rkc or the problem's own method has found so far, all 0 for others. */
+/* Findings of rkc or of the problem's own method so far, all 0 for others. */
 struct rkc_report integrate_rkc_report(const struct integrator *it);
 
 /* State at a time within the last step, by a cubic Hermite polynomial, or by

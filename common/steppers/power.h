@@ -22,7 +22,7 @@ struct power_problem {
   double *trial, *slope; /* scratch */
 };
 
-/* What goes on from one estimate to the next; zeroed, there is none. */
+/* State kept from one estimate to the next; zeroed, there is none. */
 struct power {
   bool known;
   double length;      /* of the last iteration (1/s) */

@@ -18,7 +18,7 @@
 
 extern const gsl_odeiv2_step_type *const rkc;
 
-/* What a stepper of this type has found so far. */
+/* Findings of a stepper of this type so far. */
 struct rkc_report {
   double spectral_radius;   /* estimate in use (1/s) */
   size_t stages;            /* of the last step */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a gsl_odeiv2 step or control type has to have and ours do without: GSL
-   calls both unchecked and keeps its own empty versions private. */
+/* Functions that a gsl_odeiv2 step or control type has to have and ours do
+   without: GSL calls both unchecked and keeps its own empty versions private.
+ */
 #ifndef STEP_TYPE_H
 #define STEP_TYPE_H
 

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "tabulate.h"
+
+#include "program/messages.h"
+
+void tabulation_open(struct tabulation *t, const struct frames_options *o,
+                     bool mean, int argc, char **argv, int first) {
+  *t = (struct tabulation){0};
+  frames_open(&t->frames, o, argc, argv, first);
+  table_open(&t->table, &t->frames, mean);
+}
+
+bool tabulation_next(struct tabulation *t) {
+  return frames_next(&t->frames, &t->bed);
+}
+
+void tabulation_see(struct tabulation *t, const struct option_list *given) {
+  if (given->count)
+    box_watch_see(&t->watch, &t->frames, &t->bed, false, 1,
+                  (const double(*)[6])given->at);
+}
+
+int tabulation_close(struct tabulation *t) {
+  table_close(&t->table);
+  box_watch_end(&t->watch);
+  frames_close(&t->frames);
+  finish_output();
+  return EXIT_DONE;
+}
