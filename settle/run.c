@@ -24,7 +24,7 @@ struct run {
   double start; /* time */
   struct rest_watch rest;
   size_t frames; /* written */
-  FILE *log;
+  struct output_file log;
   bool failed;
   char mark[160]; /* of the bed, at its end */
 };
@@ -39,7 +39,8 @@ static void write_frame(struct run *r, const double *y, double t) {
                   dynamics_stride(r->motion->dynamics) == ROW_SPIN);
   r->frames++;
   assert(r->frames <= r->set->frames);
-  if (ferror(stdout))
+  /* what is done is not lost with what is still to be done */
+  if (fflush(stdout) != 0 || ferror(stdout))
     finish_output(); /* does not return */
 }
 
@@ -84,12 +85,17 @@ static void write_log(struct run *r) {
                          integrate_last_step(r->motion->integrator)};
   const double energy[] = {dynamics_kinetic(r->motion->dynamics, y),
                            dynamics_potential(r->motion->dynamics, y)};
-  numbers_write(r->log, '\t', 2, step);
-  fprintf(r->log, "\t%zu\t%zu\t",
+  FILE *log = r->log.stream;
+  numbers_write(log, '\t', 2, step);
+  fprintf(log, "\t%zu\t%zu\t",
           integrate_counts(r->motion->integrator).accepted,
           watch_evaluations(r->watch));
-  numbers_write(r->log, '\t', 2, energy);
-  fputc('\n', r->log);
+  numbers_write(log, '\t', 2, energy);
+  fputc('\n', log);
+  /* at once, although the bed is worth more and the run goes on */
+  if (!r->log.error && output_failed(&r->log))
+    warn("%s: %s; the run goes on without a log", r->set->log,
+         strerror(r->log.error));
 }
 
 static bool at_rest(struct run *r) {
@@ -107,7 +113,7 @@ static bool step(struct run *r) {
   struct watch_finding f = {.page = "Missed collisions"};
   int status = integrate_step(r->motion->integrator);
   if (status == GSL_SUCCESS) {
-    if (r->log)
+    if (r->set->log)
       write_log(r);
     status = watch_step(r->watch, &f);
   } else
@@ -176,13 +182,12 @@ int run(const struct settings *s, struct bed *b,
   r.y = malloc(dynamics_dimension(r.motion->dynamics) * sizeof *r.y);
   if (!r.y)
     die(EXIT_IO, "out of memory");
-  struct output_file log, stats; /* opened before hours are spent */
+  struct output_file stats; /* opened before hours are spent */
   if (s->stats)
     output_open(&stats, s->stats);
   if (s->log) {
-    output_open(&log, s->log);
-    r.log = log.stream;
-    fputs("t\th\tsteps\tevaluations\tkinetic\tpotential\n", r.log);
+    output_open(&r.log, s->log);
+    fputs("t\th\tsteps\tevaluations\tkinetic\tpotential\n", r.log.stream);
   }
   status = watch_alloc(&r.watch, s, b, r.motion, begun);
   if (status == GSL_EFAILED)
@@ -194,7 +199,7 @@ int run(const struct settings *s, struct bed *b,
   bed_write_status(stdout, r.mark);
   finish_output();
   if (s->log)
-    output_commit(&log);
+    output_commit(&r.log);
   if (s->stats) {
     const double t_end = integrate_time(r.motion->integrator);
     watch_stats(r.watch, stats.stream, GSL_MIN(t_end, s->time), code);

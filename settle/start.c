@@ -20,8 +20,42 @@ static void check_memory(int status) {
     die(EXIT_IO, "out of memory");
 }
 
-/* The last frame with spheres of the scene's file, of any format; a bed's keys
-   go into the header. radius: of spheres that come without one. */
+/* The spheres that a frame should have: by the header, or as the one before it.
+   0: nobody knows. */
+static size_t expected_spheres(const struct bed_reader *reader,
+                               const struct bed *before) {
+  const char *count = bed_header_get(bed_reader_header(reader), "count");
+  double n;
+  return count && number_parse(count, &n) && n > 0 && number_is_whole(n)
+             ? (size_t)n
+             : before->n;
+}
+
+/* The frame in the place of the one before it, unless the file is cut within
+   it. */
+static void take_frame(const struct bed_reader *reader, const char *name,
+                       struct bed *b, struct bed *frame) {
+  const size_t expected = expected_spheres(reader, b);
+  if (bed_reader_is_cut(reader) && frame->n < expected) {
+    if (!b->n)
+      die(EXIT_INPUT,
+          "%s: the frame of t=%g has %zu of %zu spheres and there is none "
+          "before it: expected a whole frame",
+          name, frame->t, frame->n, expected);
+    warn("%s: the frame of t=%g is left out, it has %zu of %zu spheres; the "
+         "start is the one before it, of t=%g",
+         name, frame->t, frame->n, expected, b->t);
+    bed_free(frame);
+  } else if (frame->n) {
+    bed_free(b);
+    *b = *frame;
+  } else {
+    bed_free(frame);
+  }
+}
+
+/* The last whole frame with spheres of the scene's file, of any format; a bed's
+   keys go into the header. radius: of spheres that come without one. */
 static void read_scene(const struct settings *s, double radius, struct bed *b,
                        struct bed_header *h, const char **name) {
   struct input in;
@@ -37,12 +71,7 @@ static void read_scene(const struct settings *s, double radius, struct bed *b,
   while ((status = bed_reader_next(reader, &frame)) == GSL_SUCCESS) {
     if (bed_reader_note(reader))
       warn("%s", bed_reader_note(reader));
-    if (frame.n) {
-      bed_free(b);
-      *b = frame;
-    } else {
-      bed_free(&frame);
-    }
+    take_frame(reader, *name, b, &frame);
   }
   check_memory(status);
   if (status != GSL_EOF) {

@@ -131,6 +131,35 @@ for p in settle analyze; do
   partial cut 5 'cut short: 1 spheres of the last frame, t=0, were read'
   partial midcut 6 'cut short: 1 spheres of the last frame, t=0, were read'
 done
+# A cut frame is no start: the last whole one is.
+"$B/settle" --quiet --count 20 --base 0.4,0.4 --time 0.2 --frames 3 >"$T/frames"
+whole=$(wc -c <"$T/frames") third=$(grep -n '^# t=0.2' "$T/frames" | cut -d: -f 1)
+head -c $((whole - 1000)) "$T/frames" >"$T/third"
+run settle --allow-partial --scene "$T/third" --time 0.1
+check 'a cut frame: the start is the one before' test "$status" = 0 -a \
+  "$(grep -c '^[0-9]' "$T/out")" = 20 -a \
+  "$(grep -c 't=0.2 is left out.* of 20 spheres.*t=0.1$' "$T/err")" = 1
+head -n $((third + 1 + 20)) "$T/frames" >"$T/third"
+run settle --allow-partial --scene "$T/third" --time 0.2
+check 'only its last line is missing: it is the start' test "$status" = 0 -a \
+  "$(grep -c '^[0-9]' "$T/out")" = 20
+head -n 40 "$T/frames" >"$T/third"
+run settle --allow-partial --scene "$T/third"
+check "no whole frame: exit status $status" test "$status" = 3 -a ! -s "$T/out" \
+  -a "$(grep -c 'has 5 of 20 spheres.*expected a whole frame' "$T/err")" = 1
+# Frames are there once they are written, not at the end of the run.
+"$B/settle" --quiet --count 20 --base 0.4,0.4 --method verlet --step 1e-7 \
+  --time 100 --frames 1000000 >"$T/killed" &
+for ((k = 0; k < 500 && $(grep -c '^id' "$T/killed") < 5; k++)); do sleep 0.02; done
+kill -s KILL $! && wait $! 2>/dev/null
+check 'killed: the last frame is whole' test "$(wc -l <"$T/killed")" -gt 100 -a \
+  $(($(grep -c '^[0-9]' "$T/killed") % 20)) = 0
+# A full log is said at once and at the end, and the bed is there.
+run settle --count 20 --base 0.4,0.4 --time 1 --log /dev/full
+check 'a full log: status, what is wrong, the bed' test "$status" = 1 \
+  -a "$(grep -c 'full: No space left.*goes on' "$T/err")" = 1 -a \
+  "$(tail -n 1 "$T/err")" = 'settle: /dev/full: No space left on device' -a \
+  "$(tail -n 1 "$T/out")" = '# status=ok'
 refuse 'overlapping start' 3 "$T/overlap: spheres 4 and 5 .*expected" \
   settle --scene "$T/overlap"
 refuse 'spheres in one place' 3 "$T/same: spheres 4 and 5" \

@@ -188,12 +188,18 @@ static void synchronize_directory(const char *path) {
   free(directory);
 }
 
+bool output_failed(struct output_file *f) {
+  if (!f->error && ferror(f->stream))
+    f->error = errno;
+  return f->error != 0;
+}
+
 void output_commit(struct output_file *f) {
   const bool failed = ferror(f->stream);
   bool done = fflush(f->stream) == 0 && !failed &&
               (!f->partial || synchronize(f->stream));
-  const int error = errno;
-  if (fclose(f->stream) != 0)
+  const int error = f->error ? f->error : errno;
+  if (fclose(f->stream) != 0 && !f->error)
     done = false;
   else if (!done)
     errno = error;

@@ -4,6 +4,7 @@
 #ifndef FILES_H
 #define FILES_H
 
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 #include "program/unpack.h"
@@ -20,6 +21,7 @@ struct output_file {
   uintmax_t others; /* names of the file that is replaced */
   char *joined;     /* the path, where it is the file's own */
   FILE *stream;
+  int error; /* errno of the first write that failed, if that was looked for */
 };
 
 /* Both exit on failure with one line that names the file: with EXIT_IO, or with
@@ -28,6 +30,10 @@ struct output_file {
    name. */
 void output_open(struct output_file *f, const char *path);
 void output_commit(struct output_file *f);
+
+/* Has a write failed? For work that goes on for long before its commit; to be
+   called after each write. */
+bool output_failed(struct output_file *f);
 
 /* Makes a folder for several files unless it exists; it is removed at the end
    if it is still empty. Exits likewise. */
