@@ -15,6 +15,7 @@ struct settings {
   struct scene_words words;
   struct integrate_options integrate;
   double density;               /* kg/m^3, 0: by fill.mass */
+  const char *sizes, *shares;   /* NULL: equal spheres; not given */
   struct similarity similarity; /* of the spheres to the paper's */
   double travel, time;
   const char *pairs, *scene_file, *stats, *log;

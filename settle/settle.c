@@ -1,16 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* settle: integrates a bed of spheres, from the paper's start or from a file,
    and writes its frames. */
+#include <stdio.h>
 #include <string.h>
 #include "platform/system.h"
 #include "run.h"
 #include "program/integration.h"
 #include "program/shared_options.h"
+#include "program/size_options.h"
 #include "start.h"
 
 enum { CELLS, ALL };
 static const char *const pair_searches[] = {
     [CELLS] = "cells", [ALL] = "all", NULL};
+
+static void shares_unset(char *text, size_t size) {
+  snprintf(text, size, "%s; a sieve's are by %s", size_shares[SHARES_NUMBER],
+           size_shares[SHARES_VOLUME]);
+}
 
 int main(int argc, char **argv) {
   struct settings s = {.fill = {.count = 200,
@@ -43,6 +50,15 @@ int main(int argc, char **argv) {
       {.name = "density", .type = OPTION_DOUBLE, .value = &s.density,
        .most = OPTION_MANY, .unit = "kg/m^3; 0: --mass",
        .help = "of the spheres, instead of --mass"},
+      {.name = "sizes", .type = OPTION_TEXT, .value = &s.sizes,
+       .unit = "uniform:R1,R2, normal:MEAN,SD, lognormal:MEDIAN,SIGMA, "
+               "mix:R1*SHARE,R2*SHARE,... or sieve:FILE; radii in m",
+       .help = "distribution of radii; --mass is then of a sphere of the mean "
+               "radius",
+       .parameter = true},
+      {.name = "shares", .type = OPTION_TEXT, .value = &s.shares,
+       .choices = size_shares, .unset = shares_unset,
+       .help = "what the shares of --sizes are of", .parameter = true},
       {.name = "base", .type = OPTION_LIST, .value = &s.base, .least = 2,
        .most = 2, .unit = "m", .help = "sides of the box", .parameter = true,
        .dimension = {.length = 1}},

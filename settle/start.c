@@ -13,6 +13,7 @@
 #include "files/formats.h"
 #include "files/numbers.h"
 #include "files/radius_keys.h"
+#include "program/size_options.h"
 #include "program/version.h"
 
 static void check_memory(int status) {
@@ -117,8 +118,8 @@ static bool is_step_control(const struct option_spec *o) {
 /* Whether an option describes the making of a start: a scene has been made
    already. */
 static bool is_of_start(const struct option_spec *o) {
-  static const char *const names[] = {"count",  "base", "drop",
-                                      "jitter", "seed", NULL};
+  static const char *const names[] = {"count", "sizes",  "shares", "base",
+                                      "drop",  "jitter", "seed",   NULL};
   return is_one_of(o, names);
 }
 
@@ -188,6 +189,27 @@ static void take_density(struct settings *s, struct option_spec *options) {
   s->fill.mass = s->density * 4 / 3 * M_PI * gsl_pow_3(s->fill.radius);
 }
 
+/* The spheres of a start, and those that its defaults follow: of the mean
+   radius and mass. */
+static void make_spheres(struct settings *s, struct option_spec *options,
+                         struct bed *b) {
+  if (s->shares && !s->sizes)
+    die(EXIT_USAGE, "--shares: expected --sizes beside it");
+  if (s->sizes && option_find(options, "radius")->given)
+    die(EXIT_USAGE, "--radius: expected no --sizes beside it");
+  check_memory(bed_alloc(b, s->fill.count));
+  for (size_t i = 0; i < b->n; i++)
+    b->r[i] = s->fill.radius;
+  if (s->sizes) {
+    struct sizes *sizes = sizes_of_options(s->sizes, s->shares);
+    check_memory(sizes_draw(sizes, s->fill.seed, b->n, b->r));
+    sizes_free(sizes);
+    s->fill.radius = mean_of(b->r, b->n);
+  }
+  take_density(s, options);
+  sizes_masses(b->n, b->r, s->fill.radius, s->fill.mass, b->m);
+}
+
 /* A tolerance that neither options nor a scene had is by similarity too. */
 static void take_defaults(struct settings *s) {
   const bool open = s->integrate.tol == 0;
@@ -203,7 +225,7 @@ static void take_defaults(struct settings *s) {
    know. The making of a scene's start is described by its file alone. */
 static void write_header(struct settings *s, const struct option_spec *options,
                          const struct bed *b, struct bed_header *h) {
-  char text[256];
+  char text[1024];
   s->fill.count = b->n;
   s->fill.radius = mean_of(b->r, b->n);
   s->fill.mass = mean_of(b->m, b->n);
@@ -218,7 +240,11 @@ static void write_header(struct settings *s, const struct option_spec *options,
     if (!o->parameter || o->each || of_file)
       continue;
     option_text(o, text, sizeof text);
-    check_memory(bed_header_set(h, o->name, text));
+    if (strlen(text) + 1 == sizeof text)
+      die(EXIT_USAGE, "--%s: expected fewer than %zu characters", o->name,
+          sizeof text - 1);
+    if (*text) /* what has not been asked for has no key */
+      check_memory(bed_header_set(h, o->name, text));
   }
   for (size_t k = 0; k < s->scene.walls_count; k++) {
     const double *p = s->scene.walls[k].point, *n = s->scene.walls[k].normal;
@@ -252,9 +278,9 @@ void start_make(struct settings *s, struct option_spec *options, struct bed *b,
     if (bad)
       die(EXIT_INPUT, "%s: %s", name, bad);
   } else {
-    take_density(s, options);
+    make_spheres(s, options, b);
     s->similarity = header_similarity(header, options, &s->words,
-                                      s->fill.radius, s->fill.mass);
+                                      mean_of(b->r, b->n), mean_of(b->m, b->n));
   }
   take_defaults(s);
   const char *wrong = scene_finish(&s->scene, &s->words);
@@ -268,11 +294,11 @@ void start_make(struct settings *s, struct option_spec *options, struct bed *b,
     s->fill.base[1] = s->base.at[1];
     if (!(s->fill.base[0] > 0 && s->fill.base[1] > 0))
       die(EXIT_USAGE, "--base: expected two numbers above 0");
-    const int status = fill_grid(&s->fill, b);
+    const int status = fill_grid_of(&s->fill, b);
     check_memory(status);
     if (status != GSL_SUCCESS)
       die(EXIT_USAGE, "--base %g,%g: not one sphere of radius %g fits",
-          s->fill.base[0], s->fill.base[1], s->fill.radius);
+          s->fill.base[0], s->fill.base[1], gsl_stats_max(b->r, 1, b->n));
     if (!own_walls)
       check_memory(scene_add_box(&s->scene, s->fill.base[0], s->fill.base[1]));
   }

@@ -22,4 +22,8 @@ struct fill {
    for one sphere, GSL_ENOMEM. */
 int fill_grid(const struct fill *f, struct bed *b);
 
+/* The same of spheres that have their radii and masses: r is the largest
+   radius. Of the fill, count, radius and mass are not looked at. */
+int fill_grid_of(const struct fill *f, struct bed *b);
+
 #endif
