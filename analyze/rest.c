@@ -39,7 +39,8 @@ static double unbalanced(const struct frames *f, const struct scene *s,
 }
 
 struct energies {
-  double kinetic, potential, fastest;
+  double kinetic, potential, height; /* J per sphere */
+  double fastest;                    /* m/s */
 };
 
 static struct energies energies(const struct frames *f, const struct scene *s,
@@ -53,6 +54,7 @@ static struct energies energies(const struct frames *f, const struct scene *s,
   frame_check(f, b, dynamics_survey(d, y, &survey));
   const struct energies e = {dynamics_kinetic(d, y) / (double)b->n,
                              (survey.gravity + survey.stored) / (double)b->n,
+                             survey.height / (double)b->n,
                              dynamics_fastest(d, y)};
   free(y);
   dynamics_free(d);
@@ -72,6 +74,12 @@ static void see_first(struct seen *seen, const struct scene *s,
                     gsl_stats_mean(b->m, 1, b->n), vec3_norm(s->gravity));
   seen->watch = rest_watch_begin(b->t, &spheres);
   seen->t = seen->share = GSL_NAN;
+}
+
+static bool see(struct rest_watch *w, double t, const struct energies *e) {
+  if (rest_watch_see(w, t, e->kinetic))
+    rest_watch_sample(w, t, e->potential, e->height);
+  return rest_watch_rests(w, t);
 }
 
 /* Solid fraction of the box that was given, or of the frame's own. */
@@ -99,7 +107,7 @@ static void print_frame(struct table *table, struct frames *f,
   if (f->first)
     see_first(seen, &scene, b);
   const double vmin = scene.law.vmin, passed = b->t - seen->t;
-  const bool at_rest = rest_watch_see(&seen->watch, b->t, e.fastest, vmin);
+  const bool at_rest = see(&seen->watch, b->t, &e);
   scene_free(&scene);
   table_frame(table, TABLE_ROWS,
               "t\tkinetic\tpotential\tunbalanced\tfastest\tunion\trate\t"
@@ -142,11 +150,13 @@ int verb_rest(int argc, char **argv) {
           "  union       solid fraction of the box\n"
           "  rate        its change since the last frame by the time (1/s)\n"
           "  at_rest     1: yes, 0: no, nan: too short a time was seen\n"
-          "At rest, as for `settle --until-rest`: no surface has been as\n"
-          "fast as vmin for 0.1 s. vmin is the speed below which the model's\n"
-          "own friction lets a loaded contact creep, so a bed with friction\n"
-          "never stops altogether. settle looks at every step, this at the\n"
-          "frames there are: have them less than 0.1 s apart.",
+          "At rest, as for `settle --until-rest`: for 10 sqrt(r/g) (1 s for\n"
+          "the paper's spheres) the mean kinetic energy was below that of\n"
+          "0.01 sqrt(g r), and within 50 sqrt(r/g) (5 s) the bed lost less\n"
+          "than 0.5 % of the energy of its height. A bed with friction never\n"
+          "stops altogether: below vmin its contacts creep. settle looks at\n"
+          "every step, this at the frames there are: have them less than\n"
+          "5 sqrt(r/g) apart.",
       .usage = "rest [OPTION...] [FILE...]",
       .example = "settle --frames 161 | analyze rest",
       .options = options};

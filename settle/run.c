@@ -98,14 +98,34 @@ static void write_log(struct run *r) {
          strerror(r->log.error));
 }
 
+/* Whether the bed rests: looked at after every step, its energy now and then.
+   The survey may rebuild the list of pairs, as a step does. */
 static bool at_rest(struct run *r) {
   const struct motion *m = r->motion;
-  double fastest =
-      dynamics_fastest(m->dynamics, integrate_state(m->integrator));
-  if (motion_multirate(m)) /* within the step too */
-    fastest = GSL_MAX(fastest, multirate_fastest(motion_multirate(m)));
-  return rest_watch_see(&r->rest, integrate_time(m->integrator), fastest,
-                        r->set->scene.law.vmin);
+  const double t = integrate_time(m->integrator);
+  const double *y = integrate_state(m->integrator);
+  struct survey v;
+  if (rest_watch_see(&r->rest, t,
+                     dynamics_kinetic(m->dynamics, y) / (double)r->bed->n) &&
+      dynamics_survey(m->dynamics, y, &v) == GSL_SUCCESS)
+    rest_watch_sample(&r->rest, t, v.gravity + v.stored, v.height);
+  return rest_watch_rests(&r->rest, t);
+}
+
+/* Why the bed is not at rest at the end t. */
+static void say_not_at_rest(const struct run *r, double t) {
+  const struct rest_watch *w = &r->rest;
+  if (t - w->since < w->quiet)
+    warn("not at rest at t=%g: until t=%.4g spheres moved with more than %.2g "
+         "J on average, expected less for %g s",
+         t, GSL_MIN(w->since, t), w->kinetic_limit, w->quiet);
+  else if (t - w->start < w->settling)
+    warn("not at rest at t=%g: seen for %.2g s, expected %g s", t,
+         t - w->start, w->settling);
+  else
+    warn("not at rest at t=%g: in %g s the bed lost %.2g %% of the energy of "
+         "its height, expected below %g %%",
+         t, w->settling, 100 * w->loss, 100 * rest_watch_limit());
 }
 
 /* One step and what follows from it. False if the run cannot go on. */
@@ -157,12 +177,7 @@ static int integrate_all(struct run *r) {
   if (rests || !s->until_rest)
     return EXIT_DONE;
   snprintf(r->mark, sizeof r->mark, "limit: not at rest at t=%g", s->time);
-  warn("not at rest at t=%g: surfaces still move at %.3g m/s, expected below "
-       "vmin = %g m/s",
-       s->time,
-       dynamics_fastest(r->motion->dynamics,
-                        integrate_state(r->motion->integrator)),
-       s->scene.law.vmin);
+  say_not_at_rest(r, s->time);
   return EXIT_LIMIT;
 }
 

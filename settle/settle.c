@@ -73,7 +73,8 @@ int main(int argc, char **argv) {
       {.name = "pairs", .type = OPTION_TEXT, .value = &s.pairs,
        .choices = pair_searches, .help = "how pairs are found"},
       {.name = "until-rest", .type = OPTION_FLAG, .value = &s.until_rest,
-       .help = "end once all surfaces were slower than vmin for 0.1 s"},
+       .help = "end once the bed hardly moves or settles any more; --time is "
+               "then the longest"},
       {.name = "frames", .type = OPTION_SIZE, .value = &s.frames, .least = 1,
        .most = 1e9, .unit = "1: the last state",
        .help = "states written, evenly from start to end"},

@@ -473,22 +473,6 @@ static void test_within(void) {
   sample_free(&s);
 }
 
-/* The fastest surface within a step is at least that at its end. */
-static void test_fastest(void) {
-  struct sample s = rain(SCENE_ROTATION, 16, false, 9);
-  struct motion *m = start(&s, "multirate", 1e-3, 1);
-  bool more = false;
-  while (integrate_time(m->integrator) < 0.3 &&
-         CHECK(integrate_step(m->integrator) == GSL_SUCCESS)) {
-    const double at_end =
-        dynamics_fastest(m->dynamics, integrate_state(m->integrator));
-    more = more || multirate_fastest(motion_multirate(m)) > at_end;
-  }
-  CHECK(more); /* some sphere was faster before the end of a step */
-  motion_free(m);
-  sample_free(&s);
-}
-
 /* --- bits ------------------------------------------------------------------*/
 
 /* Enough rows for threads to share vectors, and contacts for parts. */
@@ -663,7 +647,6 @@ int main(void) {
   test_apart();
   test_bullet();
   test_within();
-  test_fastest();
   test_threads();
   test_ghosts();
   test_contract();

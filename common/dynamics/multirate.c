@@ -184,13 +184,6 @@ const struct integrate_engine multirate_engine = {.alloc = multirate_alloc,
                                                   .report = multirate_found,
                                                   .at = multirate_at};
 
-double multirate_fastest(const struct multirate *m) {
-  double fastest = 0;
-  for (size_t k = 0; k < m->lanes->count; k++)
-    fastest = GSL_MAX(fastest, trace_fastest(m->lanes->lane[k].trace));
-  return fastest;
-}
-
 struct multirate_report multirate_report(const struct multirate *m) {
   struct multirate_report r = {0};
   for (size_t q = 0; q < MULTIRATE_LEVELS; q++) {

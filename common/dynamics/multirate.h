@@ -27,9 +27,6 @@ struct multirate_report {
 };
 struct multirate_report multirate_report(const struct multirate *m);
 
-/* Largest speed of any sphere's surface at the end of any of the steps that the
-   last step was made of (m/s). */
-double multirate_fastest(const struct multirate *m);
 
 /* The parameters of an engine. */
 struct multirate_problem {

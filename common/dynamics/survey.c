@@ -22,8 +22,15 @@ void survey_take(const struct contact_list *list, const double y[],
                  struct survey *s) {
   const size_t stride = list->stride;
   *s = (struct survey){.inside = GSL_POSINF};
-  for (size_t i = 0; i < list->rows; i++)
-    s->gravity -= list->mass[i] * vec3_dot(list->gravity, y + i * stride);
+  const double g = vec3_norm(list->gravity);
+  double mass = 0, lowest = GSL_POSINF; /* kg, J/kg */
+  for (size_t i = 0; i < list->rows; i++) {
+    const double potential = -vec3_dot(list->gravity, y + i * stride);
+    s->gravity += list->mass[i] * potential;
+    mass += list->mass[i];
+    lowest = GSL_MIN(lowest, potential - g * list->radius[i]);
+  }
+  s->height = s->gravity - mass * lowest;
   for (size_t p = 0; p < list->near.count; p++) {
     const size_t i = list->near.i[p], j = list->near.j[p];
     double u[3];

@@ -11,6 +11,7 @@ struct contact_list;
 
 struct survey {
   double gravity;  /* J, from the origin */
+  double height;   /* J, gravity's from the lowest surface of a sphere */
   double stored;   /* J in contacts, each F/kappa */
   size_t contacts; /* within lmax */
   /* Deepest overlap of any contact, in radii of the smaller sphere (a wall has

@@ -21,7 +21,6 @@ struct trace {
   size_t count, size;
   struct moment *at;
   double *values; /* 2 * stride each */
-  double fastest;
   size_t *last; /* of each row, for trace_at: count where there is none */
 };
 
@@ -54,17 +53,11 @@ size_t trace_mark(const struct trace *r) {
 
 void trace_cut(struct trace *r, size_t mark) {
   r->count = mark;
-  if (mark == 0)
-    r->fastest = 0;
 }
 
 void trace_erase(struct trace *r, size_t from, size_t to) {
   for (size_t k = from; k < to; k++)
     r->at[k].row = ERASED;
-}
-
-double trace_fastest(const struct trace *r) {
-  return r->fastest;
 }
 
 static int reserve(struct trace *r, size_t count) {
@@ -96,7 +89,6 @@ int trace_append(struct trace *r, const struct level *l, double t) {
     r->at[r->count++] = (struct moment){t, l->whole[i]};
     memcpy(value, y, bytes);
     memcpy(value + stride, l->f0 + i * stride, bytes);
-    r->fastest = GSL_MAX(r->fastest, contact_list_speed(l->list, i, y));
   }
   return GSL_SUCCESS;
 }
