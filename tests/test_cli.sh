@@ -649,10 +649,10 @@ check '--wall replaces the box, twice' test "$(key wall "$T/a" | wc -l)" = 2
 check 'the box' test "$(key wall "$T/a" | wc -l)" = 5
 
 # --- until rest ---------------------------------------------------------------
-succeed '--until-rest' settle --count 1 --drop 0 --time 20 --until-rest \
-  --stats "$T/files/stats"
+succeed '--until-rest' settle --count 30 --base 0.5,0.5 --model basic \
+  --time 30 --until-rest --stats "$T/files/stats"
 check '--until-rest: before the end' eval \
-  'is_close "$(stat t_end)" 6 1.5 && [[ $(key t "$T/out") == $(stat t_end) ]]'
+  'is_close "$(stat t_end)" 7 1 && [[ $(key t "$T/out") == $(stat t_end) ]]'
 check '--until-rest: at rest' is_close "$(value 1 vz "$T/out")" 0 0.01
 check '--until-rest: a whole bed' test "$(key status "$T/out")" = ok
 run settle --count 1 --time 0.2 --until-rest
