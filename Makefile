@@ -22,7 +22,7 @@ B := build
 O := $(B)/obj
 PREFIX ?= /usr/local
 
-all: $(B)/bounce $(B)/settle $(B)/analyze ## build the programs
+all: $(B)/bounce $(B)/settle $(B)/analyze $(B)/sweep ## build the programs
 
 # What the compiler, its target and the libraries offer.
 ifneq ($(filter-out clean help deps deps-developer uninstall sanitize tidy,$(or $(MAKECMDGOALS),all)),)
@@ -76,6 +76,10 @@ $(B)/$(1): $(patsubst %.c,$(O)/%.o,$(wildcard $(1)/*.c)) $(LIBRARY)
 	$$(LINK)
 endef
 $(foreach p,$(PROGRAMS),$(eval $(call program_rule,$(p))))
+
+# A script, which finds settle and analyze beside it.
+$(B)/sweep: sweep/sweep.sh
+	install -D $< $@
 
 # Where analyze finds what it draws with, as long as it is not installed.
 $(B)/analyze: | $(B)/plots
@@ -146,7 +150,7 @@ fuzz: $(B)/fuzz/readers ## feed random files to the readers, FUZZ_SECONDS=60 (cl
 PACKAGES := gcc make libgsl-dev gnuplot-nox fonts-dejavu-core
 PACKAGES_TESTS := groff-base xz-utils zstd
 PACKAGES_DEVELOPER := clang libomp-dev clang-tidy clang-format cppcheck \
-  shellcheck strace ffmpeg
+  shellcheck strace ffmpeg parallel slurm-wlm
 has = command -v $(1) >/dev/null
 apt = $$([ "$$(id -u)" = 0 ] || echo sudo) apt-get
 define install_packages
@@ -173,9 +177,9 @@ demo: all ## settle 200 spheres, print the solid fraction, draw the bed
 
 # Man pages: each program and verb prints its own.
 VERBS = $(shell $(B)/analyze --complete | grep -v '^-')
-$(B)/man/.done: $(B)/bounce $(B)/settle $(B)/analyze
+$(B)/man/.done: $(B)/bounce $(B)/settle $(B)/analyze $(B)/sweep
 	@rm -rf $(@D) && mkdir -p $(@D)
-	for p in bounce settle analyze; do \
+	for p in bounce settle analyze sweep; do \
 	  $(B)/$$p --man > $(@D)/$$p.1 || exit; \
 	done
 	for v in $(VERBS); do \
@@ -194,9 +198,9 @@ SHARED = $(COMPLETIONS) $(SHARE)/bash-completion $(SHARE)/man/man1 \
   $(SHARE)/man $(SHARE)/doc $(SHARE) $(BINDIR) $(DESTDIR)$(PREFIX)
 install: all man ## programs, man pages, completion, pages, what draw needs; PREFIX, DESTDIR
 	install -d $(BINDIR) $(SHARE)/man/man1 $(COMPLETIONS) $(OWN)
-	install $(B)/bounce $(B)/settle $(B)/analyze $(BINDIR)
+	install $(B)/bounce $(B)/settle $(B)/analyze $(B)/sweep $(BINDIR)
 	install -m 644 $(B)/man/*.1 $(SHARE)/man/man1
-	for p in bounce settle analyze; do \
+	for p in bounce settle analyze sweep; do \
 	  install -m 644 common/program/completion.bash $(COMPLETIONS)/$$p || exit; \
 	done
 	install -m 644 plots/style.gp plots/draw/{balls,bed,movie}.gp \
@@ -206,9 +210,9 @@ install: all man ## programs, man pages, completion, pages, what draw needs; PRE
 
 # Folders go only if they are empty, those of others only in a DESTDIR.
 uninstall: ## remove what install has brought
-	rm -f $(BINDIR)/{bounce,settle,analyze} \
-	  $(SHARE)/man/man1/{bounce,settle,analyze,analyze-*}.1 \
-	  $(COMPLETIONS)/{bounce,settle,analyze}
+	rm -f $(BINDIR)/{bounce,settle,analyze,sweep} \
+	  $(SHARE)/man/man1/{bounce,settle,analyze,analyze-*,sweep}.1 \
+	  $(COMPLETIONS)/{bounce,settle,analyze,sweep}
 	rm -rf $(SHARE)/dem $(SHARE)/doc/dem
 	$(if $(DESTDIR),-rmdir $(SHARED) 2>/dev/null)
 

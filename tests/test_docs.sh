@@ -47,7 +47,7 @@ report 'a missing caption passes' $?
 code() { # PAGE: the text between backticks, a line each
   tr '\n' ' ' < "$1" | grep -o '`[^`]*`' | tr -d '`'
 }
-rooms='^(\.ci|common|settle|bounce|analyze|precision|stability|plots|tests|docs)/'
+rooms='^(\.ci|common|settle|sweep|bounce|analyze|precision|stability|plots|tests|docs)/'
 paths=0
 for page in $pages; do
   for path in $(code "$page" | grep -E "$rooms[^ ]*$" | grep -v '[A-Z]'); do
@@ -100,7 +100,7 @@ known_options() { # PAGE COMMAND: every --option of a command is in its help
   report "$1: '$2': unknown:$unknown" $?
 }
 
-for program in settle bounce analyze; do
+for program in settle bounce analyze sweep; do
   options_of $program
 done > "$T/all"
 for verb in $verbs; do
@@ -116,7 +116,7 @@ mentioned=0
 for page in $pages; do
   while read -r span; do
     case ${span#build/} in
-    settle\ * | bounce\ * | analyze\ * | precision\ * | stability\ *)
+    settle\ * | sweep\ * | bounce\ * | analyze\ * | precision\ * | stability\ *)
       known_options "$page" "${span#build/}"
       ;;
     --[a-z]*)
@@ -152,7 +152,7 @@ commands() { # PAGE: a line each: command, then \x01 and a line of output, ...
       sub(/  +#.*/, "", text)
       if (more) {
         command = command " " text
-      } else if (line ~ /^(settle|bounce|analyze|make|gzip|printf) /) {
+      } else if (line ~ /^(settle|sweep|bounce|analyze|make|gzip|printf|gnuplot) /) {
         flush()
         command = text
       } else if (command != "") {
@@ -174,6 +174,10 @@ shorter() { # COMMAND
   *'| analyze movie '*) echo "${1/--frames 81/--frames 2}" ;;
   # 8 million voxels: seconds and 64 MB
   *' --cells 200 '*) echo "${1/--cells 200/--cells 20}" ;;
+  # four beds of 200 spheres each
+  'sweep runs.tsv '*) echo "${1/sweep /sweep --settle '--count 40 --time 0.1' }" ;;
+  # other machines
+  'sweep --slurm '* | 'sweep --sshlogin '*) echo true ;;
   # the tests themselves, and packages
   make\ *) echo "make -n -C '$PWD' ${1#make }" ;;
   *) echo "$1" ;;

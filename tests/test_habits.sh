@@ -18,7 +18,7 @@ prints() { # NAME COMMAND...: as --help does, quietly
 }
 
 # --- help ---------------------------------------------------------------------
-for program in settle bounce analyze; do
+for program in sweep settle bounce analyze; do
   "$B/$program" --help >"$T/help"
   prints "$program -h" "$B/$program" -h
   check "$program --help says so" grep -q '^  -h, --help ' "$T/help"

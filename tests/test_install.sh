@@ -18,6 +18,8 @@ cd "$T" || exit 1
 PATH=$P/bin:$PATH
 settle --quiet --count 8 --base 0.4,0.4 --time 0.2 >bed.tsv 2>err
 check 'settle | analyze' test "$(analyze bed.tsv | wc -l)" = 2
+check 'sweep' test "$(printf 'seed\n1\n2\n' | sweep --settle \
+  '--count 8 --base 0.4,0.4 --time 0.2' 2>err | wc -l)" = 3
 check 'bounce' test "$(bounce --rebound | tail -n 1 | wc -w)" = 6
 if command -v gnuplot >/dev/null; then
   analyze draw --output bed.png bed.tsv 2>err
@@ -52,7 +54,7 @@ page() { # NAME COMMAND...: has a name, all of its options, and is for roff
 }
 command -v groff >/dev/null ||
   echo 'skipped: man pages through roff (groff is not installed)'
-for program in settle bounce analyze; do
+for program in settle bounce analyze sweep; do
   page $program $program
 done
 for verb in $verbs; do
@@ -94,6 +96,7 @@ check 'choices right after =' test "$(complete_ settle --model =)" = \
   'basic friction rotation '
 check 'a file for a text' test "$(complete_ settle --scene bed.t)" = 'bed.tsv '
 check 'nothing for a number' test "$(complete_ settle --kappa b)" = ' '
+check 'an option of sweep' test "$(complete_ sweep --meas)" = '--measure '
 check 'a verb' test "$(complete_ analyze contac)" = 'contacts '
 check 'a file or a verb' test "$(complete_ analyze be)" = "bed.png bed.tsv " -o \
   "$(complete_ analyze be)" = 'bed.tsv '

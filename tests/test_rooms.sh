@@ -108,7 +108,7 @@ check 'every room has its objects' test \
     wc -l)" -ge "$(ls common/*/*.c | wc -l)"
 
 silent 'no SPDX line' "$(grep -L -m 1 SPDX-License-Identifier Makefile .ci/run \
-  $(find {common,analyze,bounce,settle,precision,stability,plots,tests}/ -name \
+  $(find {common,analyze,bounce,settle,precision,stability,sweep,plots,tests}/ -name \
     '*.[ch]' -o -name '*.sh' -o -name '*.awk' -o -name '*.gp' -o -name '*.mk'))"
 
 # Headers say where they are tested.

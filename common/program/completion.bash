@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Completion of bounce, settle and analyze for bash. The program itself is asked
+# Completion of bounce, settle, analyze and sweep for bash. The program is asked
 # (--complete), so this knows what the installed one takes.
 _dem() {
   local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}
@@ -33,4 +33,4 @@ _dem() {
     COMPREPLY+=($(compgen -W "$(grep -v '^-' <<<"$table")" -- "$word"))
   fi
 }
-complete -o filenames -F _dem bounce settle analyze
+complete -o filenames -F _dem bounce settle analyze sweep
