@@ -175,7 +175,7 @@ shorter() { # COMMAND
   # 8 million voxels: seconds and 64 MB
   *' --cells 200 '*) echo "${1/--cells 200/--cells 20}" ;;
   # four beds of 200 spheres each
-  'sweep runs.tsv '*) echo "${1/sweep /sweep --settle '--count 40 --time 0.1' }" ;;
+  'sweep runs.tsv '*) echo "sweep --settle '--count 40 --time 0.1' ${1#sweep }" ;;
   # other machines
   'sweep --slurm '* | 'sweep --sshlogin '*) echo true ;;
   # the tests themselves, and packages
