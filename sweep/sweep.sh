@@ -469,9 +469,12 @@ slurm_runs() { # submits, and waits for files
       [[ -z ${line_of[n]-} ]] || continue
       if stored "$work" "$n"; then take "$line"; fi
     done
-    ((!running)) || sleep 1
+    # sbatch looks every ten seconds only
+    ((finished < runs)) || break
+    ((!running)) || sleep 0.5
   done
-  wait "$group"
+  kill "$group" 2>/dev/null
+  wait "$group" 2>/dev/null
   group='' job=''
 }
 
