@@ -39,7 +39,7 @@ struct measured {
 static double total_weight(const struct scene *s, const struct bed *b) {
   double mass = 0;
   for (size_t i = 0; i < b->n; i++)
-    mass += b->m[i];
+    mass += bed_is_fixed(b, i) ? 0 : b->m[i];
   return mass * vec3_norm(s->gravity);
 }
 
@@ -66,11 +66,12 @@ static struct measured measure(const struct frames *f,
   m.rigid = m.degree + 2 * b->n;
   m.rigid_spheres = m.degree + 3 * b->n;
   for (size_t i = 0; i < b->n; i++)
-    m.inside[i] = !m.box || box_holds(m.box, b->x + 3 * i);
+    m.inside[i] =
+        !bed_is_fixed(b, i) && (!m.box || box_holds(m.box, b->x + 3 * i));
   const size_t least = set->least                  ? set->least
                        : scene_has_friction(scene) ? LEAST_ROUGH
                                                    : LEAST_SMOOTH;
-  frame_check(f, b, network_rattlers(&m.network, least, m.rattler));
+  frame_check(f, b, network_rattlers(&m.network, least, b->fixed, m.rattler));
   network_degrees(&m.network, NULL, m.degree, m.with_spheres);
   network_degrees(&m.network, m.rattler, m.rigid, m.rigid_spheres);
   return m;
@@ -321,7 +322,8 @@ int verb_contacts(int argc, char **argv) {
           "has no end, so a contact has to be defined: by a gap of at most\n"
           "--gap, or by a normal force of at least --force.\n"
           "  t                    time (s)\n"
-          "  spheres              spheres that are looked at\n"
+          "  spheres              spheres that are looked at: obstacles are\n"
+          "                       none of them, but partners\n"
           "  pairs wall_contacts  contacts of two spheres, of sphere and wall\n"
           "  z z_spheres          mean contacts of a sphere, with walls and\n"
           "                       without\n"

@@ -14,6 +14,7 @@ struct settings {
   struct scene scene;
   struct scene_words words;
   struct integrate_options integrate;
+  double lid;                   /* m, if given */
   double density;               /* kg/m^3, 0: by fill.mass */
   const char *sizes, *shares;   /* NULL: equal spheres; not given */
   struct similarity similarity; /* of the spheres to the paper's */

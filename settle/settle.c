@@ -19,6 +19,10 @@ static void shares_unset(char *text, size_t size) {
            size_shares[SHARES_VOLUME]);
 }
 
+static void no_lid(char *text, size_t size) {
+  snprintf(text, size, "none");
+}
+
 int main(int argc, char **argv) {
   struct settings s = {.fill = {.count = 200,
                                 .radius = 0.1,
@@ -62,6 +66,9 @@ int main(int argc, char **argv) {
       {.name = "base", .type = OPTION_LIST, .value = &s.base, .least = 2,
        .most = 2, .unit = "m", .help = "sides of the box", .parameter = true,
        .dimension = {.length = 1}},
+      {.name = "lid", .type = OPTION_DOUBLE, .value = &s.lid,
+       .least = -OPTION_MANY, .most = OPTION_MANY, .unit = "m",
+       .unset = no_lid, .help = "a wall above, at this height"},
       SIMILAR("drop", &s.fill.drop, 0, "m",
               "height that the spheres start above", 1, 0, 0),
       NUMBER("jitter", &s.fill.jitter, 0, 0.5, "radii",

@@ -174,10 +174,19 @@ static void check_overlaps(const struct bed *b, const char *name) {
         name, b->id[c.i], b->id[c.j], c.distance, c.expected);
 }
 
-/* The mean, and the number itself where all are equal. */
-static double mean_of(const double x[], size_t n) {
-  const double least = gsl_stats_min(x, 1, n);
-  return gsl_stats_max(x, 1, n) > least ? gsl_stats_mean(x, 1, n) : least;
+/* Obstacles stay where they are. */
+static void check_fixed(const struct bed *b, const char *name) {
+  size_t moving = 0;
+  for (size_t i = 0; i < b->n; i++) {
+    moving += !bed_is_fixed(b, i);
+    if (bed_is_fixed(b, i) &&
+        vec3_norm(b->v + 3 * i) + vec3_norm(b->w + 3 * i) > 0)
+      die(EXIT_INPUT,
+          "%s: sphere %ld is fixed, expected no velocity and no spin", name,
+          b->id[i]);
+  }
+  if (!moving)
+    die(EXIT_INPUT, "%s: all spheres are fixed, expected one that moves", name);
 }
 
 /* The mass by --density. */
@@ -204,7 +213,7 @@ static void make_spheres(struct settings *s, struct option_spec *options,
     struct sizes *sizes = sizes_of_options(s->sizes, s->shares);
     check_memory(sizes_draw(sizes, s->fill.seed, b->n, b->r));
     sizes_free(sizes);
-    s->fill.radius = mean_of(b->r, b->n);
+    s->fill.radius = bed_mean(b, b->r);
   }
   take_density(s, options);
   sizes_masses(b->n, b->r, s->fill.radius, s->fill.mass, b->m);
@@ -221,14 +230,27 @@ static void take_defaults(struct settings *s) {
                             : (struct dimension){1, -1, 0});
 }
 
+/* A wall above, which a start of its own is to be below as a whole. */
+static void add_lid(struct settings *s, const struct bed *b) {
+  const double point[3] = {0, 0, s->lid}, up[3] = {0, 0, 1};
+  double top = GSL_NEGINF;
+  for (size_t i = 0; i < b->n; i++)
+    top = GSL_MAX(top, b->x[3 * i + 2] + b->r[i]);
+  if (!s->scene_file && top > s->lid)
+    die(EXIT_USAGE,
+        "--lid %g: the start reaches up to %g m, expected a lid above it",
+        s->lid, top);
+  check_memory(scene_add_wall(&s->scene, point, up));
+}
+
 /* The parameters as they now stand, then the keys of a file that we do not
    know. The making of a scene's start is described by its file alone. */
 static void write_header(struct settings *s, const struct option_spec *options,
                          const struct bed *b, struct bed_header *h) {
   char text[1024];
   s->fill.count = b->n;
-  s->fill.radius = mean_of(b->r, b->n);
-  s->fill.mass = mean_of(b->m, b->n);
+  s->fill.radius = bed_mean(b, b->r);
+  s->fill.mass = bed_mean(b, b->m);
   bed_header_remove(h, "wall");
   bed_header_remove(h, "status");
   check_memory(bed_header_set(h, "format", "bed-1"));
@@ -271,7 +293,7 @@ void start_make(struct settings *s, struct option_spec *options, struct bed *b,
     check_radius(s, radius, b, name);
     check_masses(s, options, b, name);
     s->similarity = header_similarity(header, options, &s->words,
-                                      mean_of(b->r, b->n), mean_of(b->m, b->n));
+                                      bed_mean(b, b->r), bed_mean(b, b->m));
     const bool other_method = option_find(options, "method")->given;
     const char *bad =
         header_options(header, options, other_method ? is_step_control : NULL);
@@ -280,7 +302,7 @@ void start_make(struct settings *s, struct option_spec *options, struct bed *b,
   } else {
     make_spheres(s, options, b);
     s->similarity = header_similarity(header, options, &s->words,
-                                      mean_of(b->r, b->n), mean_of(b->m, b->n));
+                                      bed_mean(b, b->r), bed_mean(b, b->m));
   }
   take_defaults(s);
   const char *wrong = scene_finish(&s->scene, &s->words);
@@ -302,6 +324,9 @@ void start_make(struct settings *s, struct option_spec *options, struct bed *b,
     if (!own_walls)
       check_memory(scene_add_box(&s->scene, s->fill.base[0], s->fill.base[1]));
   }
+  if (option_find(options, "lid")->given)
+    add_lid(s, b);
+  check_fixed(b, name);
   check_walls(&s->scene, b, name);
   check_overlaps(b, name);
   write_header(s, options, b, header);

@@ -260,7 +260,7 @@ static void test_lattice(const char *name, size_t want) {
 /* A ring of six with a tail of three: the tail goes one by one, the ring
    stays; a chain goes altogether. */
 static size_t rattlers(const struct network *w, size_t least, bool *rattler) {
-  CHECK(network_rattlers(w, least, rattler) == GSL_SUCCESS);
+  CHECK(network_rattlers(w, least, NULL, rattler) == GSL_SUCCESS);
   size_t count = 0;
   for (size_t i = 0; i < w->spheres; i++)
     count += rattler[i];

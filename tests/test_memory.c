@@ -325,7 +325,7 @@ static int find_network(const struct sample *s) {
   int more = status;
   if (status == GSL_SUCCESS) {
     rattler = calloc(s->bed.n, sizeof *rattler);
-    more = rattler ? network_rattlers(&w, 2, rattler) : GSL_ENOMEM;
+    more = rattler ? network_rattlers(&w, 2, NULL, rattler) : GSL_ENOMEM;
   }
   free(rattler);
   network_free(&w);

@@ -91,13 +91,34 @@ static int find_order(struct contact_list *l, const struct bed *b,
   return GSL_SUCCESS;
 }
 
+/* Obstacles come last; how many spheres move. */
+static size_t put_fixed_last(struct contact_list *l, const struct bed *b) {
+  size_t moving = 0;
+  if (!b->fixed)
+    return b->n;
+  for (size_t i = 0; i < b->n; i++)
+    moving += !b->fixed[l->order[i]];
+  size_t *order = malloc(b->n * sizeof *order);
+  if (!order)
+    return 0;
+  size_t next[2] = {0, moving};
+  for (size_t i = 0; i < b->n; i++)
+    order[next[b->fixed[l->order[i]]]++] = l->order[i];
+  memcpy(l->order, order, b->n * sizeof *order);
+  free(order);
+  return moving;
+}
+
 static bool bed_is_sound(const struct bed *b) {
   if (b->n == 0 || b->n > UINT32_MAX - 1)
     return false;
-  for (size_t i = 0; i < b->n; i++)
+  size_t moving = 0;
+  for (size_t i = 0; i < b->n; i++) {
     if (!(b->r[i] > 0) || !(b->m[i] > 0))
       return false;
-  return true;
+    moving += !bed_is_fixed(b, i);
+  }
+  return moving > 0;
 }
 
 static int reserve_rows(struct contact_list *l, size_t walls, size_t threads) {
@@ -135,6 +156,10 @@ int contact_list_alloc(struct contact_list **out, const struct scene *s,
   int status = reserve_rows(l, s->walls_count, threads);
   if (status == GSL_SUCCESS)
     status = find_order(l, b, 2 * b->r[0] + s->law.lmax);
+  if (status == GSL_SUCCESS) {
+    l->moving = put_fixed_last(l, b);
+    status = l->moving ? GSL_SUCCESS : GSL_ENOMEM;
+  }
   if (status != GSL_SUCCESS) {
     contact_list_free(l);
     return status;
@@ -151,6 +176,8 @@ int contact_list_alloc(struct contact_list **out, const struct scene *s,
     uniform = uniform && l->radius[i] == l->radius[0];
     smallest = GSL_MIN(smallest, l->radius[i]);
   }
+  for (size_t i = l->moving; i < l->rows; i++)
+    l->push[i] = l->turn[i] = 0;
   l->law = s->law;
   l->has = (struct contact_features){.friction = scene_has_friction(s),
                                      .rotation = scene_has_rotation(s),
@@ -184,6 +211,8 @@ static void list_walls(struct contact_list *l, const double *y) {
   size_t count = 0;
   for (size_t i = 0; i < l->rows; i++) {
     l->wall_first[i] = count;
+    if (i >= l->moving)
+      continue;
     for (size_t m = 0; m < l->walls_count; m++) {
       const double gap =
           wall_distance(&l->walls[m], y + i * l->stride) - l->radius[i];
@@ -320,6 +349,14 @@ int contact_list_share(struct contact_list *l) {
   return status == GSL_SUCCESS ? reserve_sums(l) : status;
 }
 
+/* Pairs of two obstacles are the last ones. */
+static void drop_fixed(struct contact_list *l) {
+  struct neighbors *near = &l->near;
+  near->count = near->first[l->moving];
+  for (size_t i = l->moving + 1; i <= l->rows; i++)
+    near->first[i] = near->count;
+}
+
 static size_t largest_span(const struct neighbors *near) {
   size_t span = 0;
   for (size_t p = 0; p < near->count; p++)
@@ -337,6 +374,7 @@ static int build(struct contact_list *l, const double *y, double way) {
   int status = neighbors_find(&l->near, l->rows, y, l->stride, l->radius,
                               l->law.lmax + l->skin);
   if (status == GSL_SUCCESS) {
+    drop_fixed(l);
     list_walls(l, y);
     l->span = largest_span(&l->near);
     status = contact_list_share(l);

@@ -47,6 +47,9 @@ struct contact_list {
   /* Rows that have rates, doubles in each; after them a part of a bed has
      ghosts: rows that are partners only. */
   size_t rows, stride, ghosts;
+  /* The rows from this one on are obstacles: their rates are zero, and they
+     have no contacts with each other or with walls. */
+  size_t moving;
   /* Sphere of the bed in each row; of a part, row of what it is part of. */
   size_t *order;
   double *radius, *mass; /* by row */

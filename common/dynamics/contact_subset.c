@@ -188,6 +188,7 @@ int contact_subset_rows(struct contact_list *part,
                         const struct contact_list *from, const uint32_t rows[],
                         size_t count, const struct contact_reach *reach) {
   assert(from->partners_known);
+  part->moving = 0;
   part->rows = part->ghosts = part->near.count = part->wall_contacts = 0;
   part->partners_known = false;
   uint32_t *place = reserve_part(part, from, rows, count);
@@ -198,6 +199,7 @@ int contact_subset_rows(struct contact_list *part,
     assert(a == 0 || rows[a] > rows[a - 1]);
     copy_row(part, a, from, rows[a]);
     place[rows[a]] = (uint32_t)a;
+    part->moving += rows[a] < from->moving;
   }
   for (size_t a = 0; a < count; a++) {
     take_pairs(part, from, a, reach);
@@ -220,6 +222,7 @@ static int copy_rows(struct contact_list *to, const struct contact_list *from) {
       !reserve_contacts(to, from->near.count, from->wall_contacts))
     return GSL_ENOMEM;
   to->rows = from->rows;
+  to->moving = from->moving;
   to->ghosts = from->ghosts;
   to->span = from->span;
   for (size_t i = 0; i < all; i++)

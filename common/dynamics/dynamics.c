@@ -73,7 +73,7 @@ void dynamics_pack(const struct dynamics *d, const struct bed *b, double y[]) {
 void dynamics_unpack(const struct dynamics *d, const double y[],
                      struct bed *b) {
   const struct contact_list *l = d->list;
-  for (size_t i = 0; i < l->rows; i++)
+  for (size_t i = 0; i < l->moving; i++)
     for (size_t c = 0; c < 3; c++) {
       const double *row = y + i * l->stride;
       const size_t at = 3 * l->order[i] + c;
@@ -89,8 +89,10 @@ static int evaluate_all_pairs(const struct dynamics *d, const double *y,
   bool finite = true;
 #pragma omp parallel for num_threads(d->options.threads) schedule(static)      \
     reduction(&& : finite)
-  for (size_t i = 0; i < d->list->rows; i++)
+  for (size_t i = 0; i < d->list->moving; i++)
     finite = allpairs_rates(d->list, y, dydt, i, i + 1) && finite;
+  const size_t from = d->list->moving * d->list->stride;
+  memset(dydt + from, 0, (dynamics_dimension(d) - from) * sizeof *dydt);
   return finite ? GSL_SUCCESS : GSL_EBADFUNC;
 }
 

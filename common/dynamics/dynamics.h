@@ -2,7 +2,8 @@
 /* Right-hand side of the equations of motion (2.13)-(2.15) as a gsl_odeiv2
    system.
 
-   The state vector has one row per sphere (row.h): 6n or 9n unknowns. Beds of
+   The state vector has one row per sphere (row.h): 6n or 9n unknowns; those of
+   obstacles (struct bed) have the rate zero. Beds of
    1024 spheres and more have their rows in the order of space. One
    struct dynamics serves one integration at a time; the evaluation itself is
    parallel with OpenMP and gives the same bits for any number of threads.
@@ -34,8 +35,8 @@ struct dynamics_counts {
 };
 
 /* Prepares a scene and its spheres; keeps no pointer to either. GSL_EINVAL if
-   there is no sphere, more than 2^32 - 2 of them, or a radius or mass is not
-   positive; GSL_ENOMEM. Tested in tests/test_memory.c too. */
+   there is no sphere that moves, more than 2^32 - 2 of them, or a radius or
+   mass is not positive; GSL_ENOMEM. Tested in tests/test_memory.c too. */
 int dynamics_alloc(struct dynamics **out, const struct scene *s,
                    const struct bed *b, const struct dynamics_options *o);
 void dynamics_free(struct dynamics *d);
@@ -46,7 +47,7 @@ struct dynamics_counts dynamics_counts(const struct dynamics *d);
 const char *dynamics_kernel(const struct dynamics *d); /* instruction set */
 
 /* Between a bed and a state vector of dynamics_dimension doubles. unpack
-   leaves the spins of a bed without rotation as they are. */
+   leaves the spins of a bed without rotation as they are, and obstacles. */
 void dynamics_pack(const struct dynamics *d, const struct bed *b, double y[]);
 void dynamics_unpack(const struct dynamics *d, const double y[], struct bed *b);
 

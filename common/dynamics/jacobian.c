@@ -137,6 +137,8 @@ static void add_block(const struct dense *m, size_t i, size_t a, size_t j,
 static void add_body(const struct contact_list *list, const struct dense *m,
                      size_t i, size_t j, double force_sign, double sign,
                      struct derivatives *d) {
+  if (i >= list->moving)
+    return;
   const double a = force_sign / list->mass[i];
   add_block(m, i, ROW_V, j, ROW_X, a * sign, d->force_u);
   add_block(m, i, ROW_V, j, ROW_V, a * sign, d->force_w);
@@ -155,7 +157,7 @@ void jacobian_dense(const struct contact_list *list, const double *y,
   const size_t n = list->rows, stride = list->stride;
   const struct dense m = {dfdy, n * stride, stride};
   memset(dfdy, 0, m.dimension * m.dimension * sizeof *dfdy);
-  for (size_t i = 0; i < n; i++)
+  for (size_t i = 0; i < list->moving; i++)
     for (size_t c = 0; c < 3; c++)
       dfdy[(i * stride + c) * m.dimension + i * stride + ROW_V + c] = 1;
 

@@ -1,8 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dynamics/rates.h"
 
+#include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
+
+/* Puts rows [from, to) of obstacles back to where they are, at rest. */
+static void keep_still(const struct contact_list *l, size_t from, size_t to,
+                       const double *y, double *few,
+                       const struct rates_to *rates) {
+  const size_t at = from * l->stride, count = (to - from) * l->stride;
+  memset(few, 0, count * sizeof *few);
+  if (!rates->dydt)
+    memcpy(rates->out + at, y + at, count * sizeof *y);
+}
 
 /* A part a few rows at a time, each finished while it is in the cache: a row's
    pairs as second partner belong to rows before it. */
@@ -26,6 +37,11 @@ static bool evaluate_part(const struct contact_list *l,
     finite = kernel->finish(l, y, rates, i, end, part) && finite;
     if (!to->dydt)
       stage_combine(to->stage, at, (end - i) * l->stride, y, rates, to->out);
+    if (end > l->moving) {
+      const size_t first_fixed = GSL_MAX(i, l->moving);
+      keep_still(l, first_fixed, end, y, rates + (first_fixed - i) * l->stride,
+                 to);
+    }
   }
   return finite;
 }

@@ -24,7 +24,7 @@ void survey_take(const struct contact_list *list, const double y[],
   *s = (struct survey){.inside = GSL_POSINF};
   const double g = vec3_norm(list->gravity);
   double mass = 0, lowest = GSL_POSINF; /* kg, J/kg */
-  for (size_t i = 0; i < list->rows; i++) {
+  for (size_t i = 0; i < list->moving; i++) {
     const double potential = -vec3_dot(list->gravity, y + i * stride);
     s->gravity += list->mass[i] * potential;
     mass += list->mass[i];

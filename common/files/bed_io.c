@@ -88,14 +88,14 @@ void bed_write_frame(FILE *out, const struct bed_header *h, const struct bed *b,
   for (int c = COLUMN_X; c <= (spin ? COLUMN_WZ : COLUMN_VZ); c++)
     if (c != COLUMN_D)
       fprintf(out, "\t%s", column_name((enum column)c));
-  fputc('\n', out);
+  fputs(b->fixed ? "\tfixed\n" : "\n", out);
   for (size_t i = 0; i < b->n; i++) {
     fprintf(out, "%ld\t", b->id[i]);
     const double *x = b->x + 3 * i, *v = b->v + 3 * i, *w = b->w + 3 * i;
     const double row[] = {x[0], x[1], x[2], b->r[i], b->m[i], v[0],
                           v[1], v[2], w[0], w[1],    w[2]};
     numbers_write(out, '\t', spin ? 11 : 8, row);
-    fputc('\n', out);
+    fputs(!b->fixed ? "\n" : b->fixed[i] ? "\t1\n" : "\t0\n", out);
   }
 }
 

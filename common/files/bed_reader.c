@@ -357,6 +357,8 @@ static int check_row(struct bed_reader *r, double *row) {
     return reader_fail(r, "mass %g: expected a number above 0", row[COLUMN_M]);
   if (!number_is_whole(row[COLUMN_ID]))
     return reader_fail(r, "id %.17g: expected a whole number", row[COLUMN_ID]);
+  if (row[COLUMN_FIXED] != 0 && row[COLUMN_FIXED] != 1)
+    return reader_fail(r, "fixed %g: expected 0 or 1", row[COLUMN_FIXED]);
   const double most = r->options.largest;
   for (int c = COLUMN_X; most > 0 && c < COLUMN_T; c++)
     if (!(fabs(row[c]) <= most))
@@ -452,6 +454,13 @@ int reader_frame(struct bed_reader *r, struct bed *b, double t) {
     memcpy(b->w + 3 * i, row + COLUMN_WX, 3 * sizeof *row);
     b->r[i] = row[COLUMN_R];
     b->m[i] = row[COLUMN_M];
+    if (row[COLUMN_FIXED] == 0)
+      continue;
+    if (bed_fix_none(b) != GSL_SUCCESS) {
+      bed_free(b);
+      return GSL_ENOMEM;
+    }
+    b->fixed[i] = true;
   }
   r->rows_count = 0;
   r->frames++;

@@ -28,7 +28,8 @@ static const struct {
     {"vx", COLUMN_VX}, {"vy", COLUMN_VY}, {"vz", COLUMN_VZ},
     {"wx", COLUMN_WX}, {"wy", COLUMN_WY}, {"wz", COLUMN_WZ},
     {"omegax", COLUMN_WX}, {"omegay", COLUMN_WY}, {"omegaz", COLUMN_WZ},
-    {"t", COLUMN_T}, {"time", COLUMN_T}
+    {"t", COLUMN_T}, {"time", COLUMN_T},
+    {"fixed", COLUMN_FIXED}
     /* clang-format on */
 };
 enum { NAMES = sizeof names / sizeof *names };
@@ -85,7 +86,7 @@ static const struct unit {
 enum { UNITS = sizeof units / sizeof *units };
 
 static enum dimension dimension_of(enum column c) {
-  return c == COLUMN_ID || c == COLUMN_OTHER ? PURE
+  return c == COLUMN_ID || c == COLUMN_OTHER || c == COLUMN_FIXED ? PURE
          : c <= COLUMN_D                     ? LENGTH
          : c == COLUMN_M                     ? MASS
          : c == COLUMN_T                     ? TIME
@@ -332,7 +333,8 @@ static enum column scalar_of(const struct words *w, bool *step) {
                  {COLUMN_R, " r radius radii "},
                  {COLUMN_D, " d diameter diameters diam dia "},
                  {COLUMN_M, " m mass masses "},
-                 {COLUMN_T, " t time times "}};
+                 {COLUMN_T, " t time times "},
+                 {COLUMN_FIXED, " fixed "}};
   *step =
       (w->count == 1 && in_list(w->at[0], " step timestep frame ")) ||
       (w->count == 2 && !strcmp(w->at[0], "time") && !strcmp(w->at[1], "step"));
@@ -610,8 +612,8 @@ int columns_of_list(struct columns *c, const char *list) {
     if ((m.column == COLUMN_OTHER && !same_word(name, "-")) ||
         is_letter_word(name, 'T')) {
       snprintf(c->wrong, sizeof c->wrong,
-               "'%.*s': expected id x y z r d m vx vy vz wx wy wz t, or - for "
-               "a column to skip",
+               "'%.*s': expected id x y z r d m vx vy vz wx wy wz t fixed, or - "
+               "for a column to skip",
                name.length > 40 ? 40 : (int)name.length, name.at);
       return GSL_EINVAL;
     }

@@ -25,6 +25,7 @@ enum column {
   COLUMN_WY,
   COLUMN_WZ,
   COLUMN_T,
+  COLUMN_FIXED, /* 1: an obstacle, 0: it moves */
   COLUMNS
 };
 

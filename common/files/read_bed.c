@@ -108,7 +108,7 @@ static int read_names(struct bed_reader *r) {
         !is_text(names[k], column_name(c)))
       return reader_fail(r,
                          "unknown column '%.*s': expected id x y z r m vx vy "
-                         "vz wx wy wz",
+                         "vz wx wy wz fixed",
                          names[k].length > 40 ? 40 : (int)names[k].length,
                          names[k].at);
     const int status = reader_add_column(r, c, names[k]);

@@ -61,6 +61,10 @@ static double wall_gap(const struct scene *s, const struct bed *b, size_t i,
   return wall_distance(&s->walls[k], b->x + 3 * i) - b->r[i];
 }
 
+static bool both_fixed(const struct bed *b, size_t i, size_t j) {
+  return bed_is_fixed(b, i) && bed_is_fixed(b, j);
+}
+
 static size_t count_walls(const struct scene *s, const struct bed *b,
                           double reach) {
   size_t count = 0;
@@ -90,6 +94,8 @@ int network_find(struct network *w, const struct scene *s, const struct bed *b,
   w->walls = s->walls_count;
   bool apart = true;
   for (size_t p = 0; p < near.count; p++) {
+    if (both_fixed(b, near.i[p], near.j[p]))
+      continue;
     struct network_contact *c = &w->at[w->count++];
     set_pair(c, s, b, near.i[p], near.j[p]);
     apart = apart && isfinite(c->n[0]); /* 0/0 where two centres are one */
@@ -98,10 +104,10 @@ int network_find(struct network *w, const struct scene *s, const struct bed *b,
   for (size_t i = 0; i < b->n; i++)
     for (size_t k = 0; k < s->walls_count; k++) {
       const double gap = wall_gap(s, b, i, k);
-      if (gap <= wall_reach)
+      if (gap <= wall_reach && !bed_is_fixed(b, i))
         set_wall(&w->at[w->count++], s, b, i, k, gap);
     }
-  assert(w->count == all);
+  assert(w->count <= all);
   if (!apart)
     network_free(w);
   return apart ? GSL_SUCCESS : GSL_EDOM;
@@ -161,7 +167,8 @@ static void list_partners(const struct network *w, size_t *start,
 
 /* Each sphere is taken out once, and its partners looked at then: a chain of n
    goes in n steps, not in n rounds. */
-int network_rattlers(const struct network *w, size_t least, bool *rattler) {
+int network_rattlers(const struct network *w, size_t least, const bool *fixed,
+                     bool *rattler) {
   const size_t n = w->spheres;
   size_t *degree = calloc(4 * n + 2 * w->count + 3, sizeof *degree);
   if (!degree)
@@ -172,7 +179,7 @@ int network_rattlers(const struct network *w, size_t least, bool *rattler) {
   list_partners(w, start, partner);
   size_t waiting = 0;
   for (size_t i = 0; i < n; i++) {
-    rattler[i] = degree[i] < least;
+    rattler[i] = degree[i] < least && !(fixed && fixed[i]);
     if (rattler[i])
       out[waiting++] = i;
   }
@@ -180,7 +187,7 @@ int network_rattlers(const struct network *w, size_t least, bool *rattler) {
     const size_t i = out[--waiting];
     for (size_t q = start[i]; q < start[i + 1]; q++) {
       const size_t j = partner[q];
-      if (rattler[j] || --degree[j] >= least)
+      if (rattler[j] || --degree[j] >= least || (fixed && fixed[j]))
         continue;
       rattler[j] = true;
       out[waiting++] = j;

@@ -27,13 +27,13 @@ struct network {
   struct network_contact *at; /* pairs by (i, j), then walls by (i, j) */
 };
 
-/* Lists every pair whose gap is at most reach (m), and every sphere and wall
-   whose gap is at most reach or, if that is more, lmax, so that loads on walls
-   are whole. Beyond lmax there is no force; with a reach of lmax and more all
-   forces are listed. All of them count until network_mark. Returns GSL_SUCCESS;
-   GSL_EDOM where two centres are one, GSL_EINVAL for a number that is not
-   finite, GSL_ENOMEM, with an empty list. w begins as zeros, or holds what was
-   found before, which is freed. */
+/* Lists every pair, but of two obstacles, whose gap is at most reach (m), and
+   every sphere and wall whose gap is at most reach or, if that is more, lmax,
+   so that loads on walls are whole. Beyond lmax there is no force; with a reach
+   of lmax and more all forces are listed. All of them count until network_mark.
+   Returns GSL_SUCCESS; GSL_EDOM where two centres are one, GSL_EINVAL for a
+   number that is not finite, GSL_ENOMEM, with an empty list. w begins as zeros,
+   or holds what was found before, which is freed. */
 int network_find(struct network *w, const struct scene *s, const struct bed *b,
                  double reach);
 void network_free(struct network *w);
@@ -54,8 +54,10 @@ void network_degrees(const struct network *w, const bool *without,
 
 /* Spheres with fewer than least contacts that count, walls included, are
    rattlers; so are those that have fewer once the rattlers are taken out, and
-   so on. rattler: one flag per sphere. Returns GSL_SUCCESS, GSL_ENOMEM. */
-int network_rattlers(const struct network *w, size_t least, bool *rattler);
+   so on. fixed (NULL: none): those are no rattlers. One flag per sphere.
+   Returns GSL_SUCCESS, GSL_ENOMEM. */
+int network_rattlers(const struct network *w, size_t least, const bool *fixed,
+                     bool *rattler);
 
 /* Sum of all forces on each sphere, with its weight (N), 3 per sphere; m a. */
 void network_net_force(const struct network *w, const struct scene *s,

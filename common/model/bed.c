@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <gsl/gsl_errno.h>
+#include <gsl/gsl_math.h>
+#include <gsl/gsl_statistics.h>
 
 int bed_alloc(struct bed *b, size_t n) {
   const size_t room = n ? n : 1; /* calloc(0) may be NULL */
@@ -32,7 +34,29 @@ void bed_free(struct bed *b) {
   free(b->w);
   free(b->r);
   free(b->m);
+  free(b->fixed);
   *b = (struct bed){0};
+}
+
+int bed_fix_none(struct bed *b) {
+  if (!b->fixed)
+    b->fixed = calloc(b->n ? b->n : 1, sizeof *b->fixed);
+  return b->fixed ? GSL_SUCCESS : GSL_ENOMEM;
+}
+
+double bed_mean(const struct bed *b, const double x[]) {
+  double mean = 0, least = GSL_POSINF, most = GSL_NEGINF;
+  size_t count = 0;
+  for (size_t i = 0; i < b->n; i++)
+    if (!bed_is_fixed(b, i)) {
+      least = GSL_MIN(least, x[i]);
+      most = GSL_MAX(most, x[i]);
+      mean += (x[i] - mean) / (double)++count;
+    }
+  if (count > 0 && least == most)
+    return least;
+  /* more precise, and so the same for the same spheres in another order */
+  return b->fixed && count > 0 ? mean : gsl_stats_mean(x, 1, b->n);
 }
 
 int bed_copy(struct bed *to, const struct bed *from) {
@@ -46,5 +70,12 @@ int bed_copy(struct bed *to, const struct bed *from) {
   memcpy(to->w, from->w, 3 * n * sizeof *to->w);
   memcpy(to->r, from->r, n * sizeof *to->r);
   memcpy(to->m, from->m, n * sizeof *to->m);
+  if (from->fixed) {
+    if (bed_fix_none(to) != GSL_SUCCESS) {
+      bed_free(to);
+      return GSL_ENOMEM;
+    }
+    memcpy(to->fixed, from->fixed, n * sizeof *to->fixed);
+  }
   return GSL_SUCCESS;
 }

@@ -4,6 +4,7 @@
 #ifndef BED_H
 #define BED_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 struct bed {
@@ -15,11 +16,26 @@ struct bed {
   double *w; /* angular velocities, 3n (rad/s) */
   double *r; /* radii, n (m) */
   double *m; /* masses, n (kg) */
+  /* Of n, those that are obstacles: they feel and give forces and stay where
+     they are. NULL: none. */
+  bool *fixed;
 };
+
+static inline bool bed_is_fixed(const struct bed *b, size_t i) {
+  return b->fixed && b->fixed[i];
+}
 
 /* n spheres with ids 0..n-1, unit mass and all else zero. GSL_ENOMEM. */
 int bed_alloc(struct bed *b, size_t n);
 void bed_free(struct bed *b);
+
+/* Room for b->fixed, all false, unless it is there. GSL_ENOMEM. */
+int bed_fix_none(struct bed *b);
+
+/* Mean of x, one number for each sphere, over those that move, or over all
+   where none does; the number itself where all are equal. Not for an empty bed.
+ */
+double bed_mean(const struct bed *b, const double x[]);
 
 /* The same again, in memory of its own. GSL_ENOMEM. */
 int bed_copy(struct bed *to, const struct bed *from);

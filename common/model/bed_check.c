@@ -12,6 +12,8 @@ struct bed_outsiders bed_find_outsiders(const struct scene *s,
   struct bed_outsiders o = {.distance = INFINITY};
   for (size_t i = 0; i < b->n; i++) {
     bool out = false;
+    if (bed_is_fixed(b, i))
+      continue;
     for (size_t k = 0; k < s->walls_count; k++) {
       const double d = wall_distance(&s->walls[k], b->x + 3 * i);
       if (d > 0)
@@ -39,6 +41,8 @@ int bed_find_crowd(const struct bed *b, struct bed_crowd *c) {
   double closest = bed_closest;
   for (size_t p = 0; p < near.count; p++) {
     const size_t i = near.i[p], j = near.j[p];
+    if (bed_is_fixed(b, i) && bed_is_fixed(b, j))
+      continue;
     double u[3];
     vec3_sub(b->x + 3 * i, b->x + 3 * j, u);
     const double d = vec3_norm(u), touch = b->r[i] + b->r[j];

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Checks that a bed is one: no centres outside of walls, no two spheres nearly
-   in one place. settle refuses another start and calls another end a failure,
-   so that it takes as a start every bed that it calls good. Not in the paper.
-   Safe in any thread. Tested in tests/test_bed_check.c. */
+   in one place; obstacles may be anywhere. settle refuses another start and
+   calls another end a failure, so that it takes as a start every bed that it
+   calls good. Not in the paper. Safe in any thread. Tested in
+   tests/test_bed_check.c. */
 #ifndef BED_CHECK_H
 #define BED_CHECK_H
 

@@ -5,7 +5,6 @@
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
-#include <gsl/gsl_statistics.h>
 #include "program/shared_options.h"
 
 struct scene_words scene_words_default(void) {
@@ -71,8 +70,7 @@ const char *scene_from_header(struct scene *s, const struct bed_header *h,
   struct scene_words words = scene_words_default();
   struct option_spec options[] = {SCENE_OPTIONS(*s, words), {0}};
   if (h && b && b->n)
-    header_similarity(h, options, &words, gsl_stats_mean(b->r, 1, b->n),
-                      gsl_stats_mean(b->m, 1, b->n));
+    header_similarity(h, options, &words, bed_mean(b, b->r), bed_mean(b, b->m));
   const char *wrong = h ? header_options(h, options, NULL) : NULL;
   return wrong ? wrong : scene_finish(s, &words);
 }

@@ -1,0 +1,67 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Containers and starts of settle, and what analyze makes of them. The forces are
+# tested in tests/test_containers.c.
+. tests/harness.sh
+
+refused() { # STATUS WORDS COMMAND...: one line with these words, and no output
+  "${@:3}" > "$T/out" 2> "$T/err"
+  local status=$?
+  check "status $status for $1: ${*:3}" [ "$status" -eq "$1" ]
+  check "no '$2' in '$(head -n 1 "$T/err")': ${*:3}" grep -qF -- "$2" "$T/err"
+  check "output without a bed: ${*:3}" [ ! -s "$T/out" ]
+}
+row() { # of a table: column NAME of the first row
+  awk -v name="$1" 'NR == 1 { for (k = 1; k <= NF; k++) at[$k] = k }
+    NR == 2 { print $at[name] }' "$2"
+}
+
+# --- a lid and obstacles -----------------------------------------------------
+refused 2 'reaches up to' "$B/settle" --count 200 --lid 2
+"$B/settle" --quiet --count 16 --lid 1.5 --time 0.01 > "$T/lid.bed"
+check 'a lid is a wall of the header' grep -qx '# wall=0 0 1.5 0 0 1' "$T/lid.bed"
+# upwards: spheres end under it
+"$B/settle" --quiet --scene "$T/lid.bed" --gravity 0,0,9.81 --time 2 |
+  "$B/analyze" contacts --box 0,1,0,1,1.3,1.5 > "$T/tsv"
+within 'spheres under the lid' "$(row spheres "$T/tsv")" 16 16
+within 'the lid carries them' "$(row floor "$T/tsv")" 0.9 1.1
+
+# a rough floor: overlapping obstacles across the floor of the box
+awk 'BEGIN { print "# format=bed-1\n# model=rotation\n# radius=0.1"
+  print "# wall=0 0 0 -1 0 0\n# wall=1 0 0 1 0 0\n# wall=0 0 0 0 -1 0"
+  print "# wall=0 1 0 0 1 0\n# t=0\nid\tx\ty\tz\tr\tm\tfixed"
+  for (i = 0; i < 49; i++)
+    print i "\t" (i % 7) / 6 "\t" int(i / 7) / 6 "\t0\t0.1\t1\t1"
+  for (i = 0; i < 48; i++)
+    print 49 + i "\t" 0.13 + 0.24 * (i % 4) "\t" 0.14 + 0.24 * (int(i / 4) % 4) \
+      "\t" 0.4 + 0.25 * int(i / 16) "\t0.1\t1\t0"
+  print "# status=ok" }' > "$T/rough.bed"
+for method in rkc multirate; do
+  "$B/settle" --quiet --scene "$T/rough.bed" --method $method --time 3 \
+    > "$T/$method.bed" 2> "$T/err"
+  check "$method over obstacles" [ $? -eq 0 ]
+  check "$method: obstacles are written as they were" cmp -s \
+    <(awk '$NF == 1 { print $1, $2, $3, $4, $5, $6 }' "$T/$method.bed") \
+    <(awk '$NF == 1 { print $1, $2, $3, $4, $5, $6 }' "$T/rough.bed")
+  within "$method: they hold the spheres" "$(awk '$NF == 0 && /^[0-9]/ {
+    if (least == "" || $4 < least) least = $4 } END { print least }' \
+    "$T/$method.bed")" 0.1 0.21
+  "$B/analyze" contacts --gap 0.002 "$T/$method.bed" > "$T/tsv"
+  within "$method: spheres that are looked at" "$(row spheres "$T/tsv")" 48 48
+done
+# the volume of all that stand apart, obstacles too
+awk 'BEGIN { print "x\ty\tz\tr\tfixed\n0\t0\t0\t1\t1\n9\t0\t0\t1\t0" }' |
+  "$B/analyze" --box -9,19,-9,9,-9,9 > "$T/tsv"
+within 'fraction counts obstacles' "$(awk -v f="$(row union "$T/tsv")" \
+  'BEGIN { print f * 28 * 18 * 18 / (8 / 3 * atan2(0, -1)) - 1 }')" -1e-12 1e-12
+"$B/analyze" export --format bed "$T/rkc.bed" 2> "$T/err" > "$T/again.bed"
+check 'export keeps obstacles' [ "$(awk '$NF == 1' "$T/again.bed" | wc -l)" = 49 ]
+sed 's/\t0$/\t2/' "$T/rough.bed" > "$T/bad.bed"
+refused 3 'fixed 2: expected 0 or 1' "$B/settle" --scene "$T/bad.bed"
+sed 's/\t0$/\t1/' "$T/rough.bed" > "$T/bad.bed"
+refused 3 'all spheres are fixed' "$B/settle" --scene "$T/bad.bed"
+printf 'x\ty\tz\tr\tvx\tfixed\n0\t0\t0\t0.1\t1\t1\n1\t1\t1\t0.1\t0\t0\n' \
+  > "$T/bad.tsv"
+refused 3 'is fixed, expected no velocity' "$B/settle" --scene "$T/bad.tsv"
+
+check_done
