@@ -23,6 +23,13 @@ static void no_lid(char *text, size_t size) {
   snprintf(text, size, "none");
 }
 
+/* As start.c chooses it. */
+static void method_unset(char *text, size_t size) {
+  snprintf(text, size,
+           "multirate; rkc with --step, --reltol, --pairs all or "
+           "another --control");
+}
+
 int main(int argc, char **argv) {
   struct settings s = {.fill = {.count = 200,
                                 .radius = 0.1,
@@ -33,7 +40,7 @@ int main(int argc, char **argv) {
                        .base = {2, {1, 1}},
                        .scene = scene_default(),
                        .words = scene_words_default(),
-                       .integrate = {.method = "rkc", .hinit = 0.1},
+                       .integrate = {.hinit = 0.1},
                        .travel = 1,
                        .time = 8,
                        .pairs = pair_searches[CELLS],
@@ -96,6 +103,7 @@ int main(int argc, char **argv) {
       QUIET_OPTION(s.quiet),
       {0}};
   /* clang-format on */
+  option_find(options, "method")->unset = method_unset;
   /* the end belongs to a run, not to a scene */
   option_find(options, "time")->parameter = false;
   const struct program program = {
@@ -111,9 +119,9 @@ int main(int argc, char **argv) {
 
   struct bed bed = {0};
   struct bed_header header = {0};
+  s.all_pairs = !strcmp(s.pairs, pair_searches[ALL]);
   start_make(&s, options, &bed, &header);
   integration_check(&s.integrate, bed.n);
-  s.all_pairs = !strcmp(s.pairs, pair_searches[ALL]);
   if (!integrate_method(s.integrate.method)->type && s.all_pairs)
     die(EXIT_USAGE, "--pairs %s: not for --method %s", s.pairs,
         s.integrate.method);

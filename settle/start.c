@@ -219,8 +219,19 @@ static void make_spheres(struct settings *s, struct option_spec *options,
   sizes_masses(b->n, b->r, s->fill.radius, s->fill.mass, b->m);
 }
 
+/* What multirate cannot do asks for rkc. */
+static const char *usual_method(const struct settings *s) {
+  const struct integrate_options *o = &s->integrate;
+  const struct integrate_method *usual = integrate_method("multirate");
+  const bool other = o->control && strcmp(o->control, usual->control->name);
+  return o->step > 0 || o->reltol > 0 || s->all_pairs || other ? "rkc"
+                                                               : usual->name;
+}
+
 /* A tolerance that neither options nor a scene had is by similarity too. */
 static void take_defaults(struct settings *s) {
+  if (!s->integrate.method)
+    s->integrate.method = usual_method(s);
   const bool open = s->integrate.tol == 0;
   integrate_defaults(&s->integrate);
   if (open)

@@ -36,7 +36,7 @@ for seed in 1 2 3; do
     "$(stat basic-merson-$seed rhs_evaluations)" 65000 90000
   within "rotation-$seed: sum" "$(sum rotation-$seed)" 0.63 0.68
   within "rotation-$seed: evaluations" \
-    "$(stat rotation-$seed rhs_evaluations)" 30000 110000
+    "$(stat rotation-$seed rhs_evaluations)" 12000 24000
 done
 within 'friction: sum' "$(sum friction)" 0.43 0.53
 within 'rotation-merson: evaluations' \

@@ -75,7 +75,7 @@ key watch_evaluations 'x > 0 && x < 80'
 run settle "${narrow[@]}" --method verlet --step 2e-5 --time 0.6
 silent
 key stiffness_ratio 'x > 0.05 && x < 1'
-run settle "${elastic[@]}" --time 1
+run settle "${elastic[@]}" --time 1 --method rkc
 silent
 # without damping rkc's radius is a frequency, not its square
 key stages_mean 'x < 2.5'
@@ -140,7 +140,7 @@ silent
 # --- penetration, and the cut at lmax -----------------------------------------
 run settle "${narrow[@]}" --kappa 30 --time 0.6
 warned 2 "sphere [0-9]+ overlaps by 0.5.* more than 0.5.*$(page Penetration)" \
-  "lmax 0.1 leaves errors of 0.02 m/s,.*tolerance 0.0005.*$(page 'The cut at lmax')"
+  "lmax 0.1 leaves errors of 0.02 m/s,.*tolerance 0.002.*$(page 'The cut at lmax')"
 key overlap_deepest 'x > 0.5 && x < 1.5'
 key steps_with_deep_overlap 'x > 10'
 # its centre passes the floor, softly: that is no failure

@@ -131,8 +131,30 @@ static int reserve_changes(struct changes *c, size_t more, size_t stride) {
   if (!value)
     return GSL_ENOMEM;
   c->value = value;
+  double *error = realloc(c->error, size * sizeof *error);
+  if (!error)
+    return GSL_ENOMEM;
+  c->error = error;
   c->size = size;
   return GSL_SUCCESS;
+}
+
+/* The largest error in velocities that any of the rows of child that a ghost
+   touches had in l's first try. */
+static void note_errors(const struct level *l, const struct level *child,
+                        double error[]) {
+  const struct neighbors *near = &child->list->near;
+  memset(error, 0, child->ghosts * sizeof *error);
+  for (size_t q = 0; q < near->count; q++) {
+    if (near->j[q] < child->rows)
+      continue;
+    const size_t a = near->i[q], i = child->list->order[a];
+    double moved[ROW_SPIN];
+    for (size_t c = 0; c < l->stride; c++)
+      moved[c] = child->y0[a * l->stride + c] - l->y1[i * l->stride + c];
+    double *most = &error[near->j[q] - child->rows];
+    *most = GSL_MAX(*most, level_row_error(l, i, moved));
+  }
 }
 
 /* Partners felt the rows of child where the first try had them: notes what that
@@ -147,6 +169,7 @@ static int note_changes(struct lane *lane, size_t depth, double end) {
     return GSL_ENOMEM;
   for (size_t q = 0; q < child->ghosts; q++)
     c->row[c->count + q] = (uint32_t)child->list->order[child->rows + q];
+  note_errors(l, child, c->error + c->count);
   const int status =
       level_feedback(child, l, end, c->value + c->count * l->stride);
   c->count += child->ghosts;
@@ -260,18 +283,21 @@ static size_t add_changes(struct lane *lane, size_t depth, double h) {
   const size_t stride = l->stride;
   size_t more = 0;
   memset(l->change, 0, l->rows * stride * sizeof *l->change);
+  memset(l->partner_error, 0, l->rows * sizeof *l->partner_error);
   for (size_t k = 0; k < s->count; k++) {
     const struct result *r = &results->of[s->row[s->begin[k]]];
     const struct changes *c = &lane->all->lane[r->lane].changes;
     for (size_t q = r->changes; q < r->changes_end; q++) {
       const size_t i = c->row[q];
-      if (i < l->rows && !l->flagged[i])
-        for (size_t u = ROW_V; u < stride; u++)
-          l->change[i * stride + u] += c->value[q * stride + u];
+      if (i >= l->rows || l->flagged[i])
+        continue;
+      for (size_t u = ROW_V; u < stride; u++)
+        l->change[i * stride + u] += c->value[q * stride + u];
+      l->partner_error[i] = GSL_MAX(l->partner_error[i], c->error[q]);
     }
   }
   for (size_t i = 0; i < l->rows; i++)
-    if (!l->flagged[i] &&
+    if (!l->flagged[i] && l->partner_error[i] > partners_error &&
         !(0.4 * h * level_row_error(l, i, l->change + i * stride) <=
           partners_error)) {
       l->flagged[i] = true;
@@ -422,6 +448,7 @@ void lanes_free(struct lanes *all) {
       free_results(&lane->results[q]);
     free(lane->changes.row);
     free(lane->changes.value);
+    free(lane->changes.error);
     trace_free(lane->trace);
     chebyshev_free(lane->setting.chebyshev);
   }

@@ -11,11 +11,12 @@
 enum { LANES_LEVELS = 3 };
 
 /* Changes by the rows of an island in the rates of their partners: a row of the
-   level above each, and its change, as long as a row. */
+   level above each, its change, as long as a row, and the largest error that its
+   partners in the island had in the first try, 1: the tolerance. */
 struct changes {
   size_t count, size;
   uint32_t *row;
-  double *value;
+  double *value, *error;
 };
 
 /* The outcome of an island, valid for as long as no other row joins it. */

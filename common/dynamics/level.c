@@ -68,13 +68,21 @@ void level_free(struct level *l) {
     contact_list_free(l->list);
   contact_list_free(l->near);
   contact_list_free(l->far);
-  double *vectors[] = {l->y0,     l->f0,
-                       l->y1,     l->f1,
-                       l->y2,     l->f2,
-                       l->a,      l->b,
-                       l->change, l->frozen,
-                       l->cubic,  l->error,
-                       l->wanted, l->power.direction,
+  double *vectors[] = {l->y0,
+                       l->f0,
+                       l->y1,
+                       l->f1,
+                       l->y2,
+                       l->f2,
+                       l->a,
+                       l->b,
+                       l->change,
+                       l->frozen,
+                       l->cubic,
+                       l->error,
+                       l->wanted,
+                       l->partner_error,
+                       l->power.direction,
                        l->weight};
   for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++)
     free(vectors[k]);
@@ -115,7 +123,8 @@ int level_reserve(struct level *l) {
       !renew(&l->b, vector) || !renew(&l->weight, vector) ||
       !renew(&l->power.direction, vector) || !renew(&l->frozen, vector) ||
       !renew(&l->cubic, 4 * vector) || !renew(&l->error, room) ||
-      !renew(&l->wanted, room) || !l->flagged || !l->refined || !l->whole)
+      !renew(&l->wanted, room) || !renew(&l->partner_error, room) ||
+      !l->flagged || !l->refined || !l->whole)
     return GSL_ENOMEM;
   l->near->frozen = l->frozen;
   l->room = room;

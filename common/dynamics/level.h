@@ -52,8 +52,9 @@ struct level {
   bool *flagged;          /* rows of the last try that need shorter steps */
   struct islands islands; /* of them */
   /* Where shorter steps took the flagged rows by the end of the step, and what
-     that changes in the rates of others. */
-  double *y2, *f2, *change;
+     that changes in the rates of others; the largest error of the first try
+     among the flagged partners of each, 1: the tolerance. */
+  double *y2, *f2, *change, *partner_error;
   bool *refined;   /* rows of the last accepted step that took them */
   uint32_t *whole; /* row of the bed, ghosts included */
 

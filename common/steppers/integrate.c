@@ -61,7 +61,7 @@ const struct integrate_control integrate_controls[] = {
                     .alloc = predictive_alloc},
     [LOCAL] = {.name = "local",
                .help = "each sphere's own step, for multirate",
-               .tol = 5e-4},
+               .tol = 2e-3},
     {0}};
 
 static void prepare_rkc(gsl_odeiv2_step *s, const struct integrate_problem *p) {

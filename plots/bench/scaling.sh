@@ -19,7 +19,7 @@ for run in 1 2 3; do
     # small beds go on for longer, so that there is something to measure
     end=8.05
     [ "$tile" = 1x1 ] && end=${LONGEST:-14}
-    "$B/settle" --quiet --scene "$work/$tile" --time $end \
+    "$B/settle" --quiet --scene "$work/$tile" --method rkc --time $end \
       --stats "$work/$tile.$run" > /dev/null
   done
 done

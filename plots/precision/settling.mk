@@ -42,7 +42,7 @@ $(F)/precision-settling.svg: plots/precision/settling.gp plots/style.gp \
 	$(draw)
 $(F)/precision-settling.md: $(BEDS)/settling.tsv
 
-# Seed by seed: rkc as settle has it, and Merson with two tolerances
+# Seed by seed: rkc at its default, and Merson with two tolerances
 SEED_RUNS := $(foreach m,merson/tol-0.01 merson/tol-0.1 rkc/tol-5e-4,\
   $(call bed_runs,$(FULL)/method-$(m),$(if $(filter rkc/%,$(m)),3,1),$(BED_RKC)))
 seeds: $(F)/precision-seeds.md ## rkc beside Merson, seed by seed

@@ -6,10 +6,10 @@
 VIBRATION := $(BEDS)/vibration
 VIBRATION_RUNS := 30-rkc 150-rkc 150-merson 500-rkc 500-merson 500-loose \
   500-outputs
-VIBRATION_30-rkc := --kappa 30 --lmax 0.33
-VIBRATION_150-rkc := --kappa 150
+VIBRATION_30-rkc := --method rkc --kappa 30 --lmax 0.33
+VIBRATION_150-rkc := --method rkc --kappa 150
 VIBRATION_150-merson := --kappa 150 --method merson
-VIBRATION_500-rkc := --kappa 500
+VIBRATION_500-rkc := --method rkc --kappa 500
 VIBRATION_500-merson := --kappa 500 --method merson
 VIBRATION_500-loose := --kappa 500 --method merson --tol 10
 VIBRATION_500-outputs := --kappa 500 --method merson --travel 0 --hmax 0.02005
