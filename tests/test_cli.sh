@@ -148,6 +148,7 @@ run settle --allow-partial --scene "$T/third"
 check "no whole frame: exit status $status" test "$status" = 3 -a ! -s "$T/out" \
   -a "$(grep -c 'has 5 of 20 spheres.*expected a whole frame' "$T/err")" = 1
 # Frames are there once they are written, not at the end of the run.
+: >"$T/killed"
 "$B/settle" --quiet --count 20 --base 0.4,0.4 --method verlet --step 1e-7 \
   --time 100 --frames 1000000 >"$T/killed" &
 for ((k = 0; k < 500 && $(grep -c '^id' "$T/killed") < 5; k++)); do sleep 0.02; done
