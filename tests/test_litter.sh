@@ -84,8 +84,8 @@ check "a second signal: the status is $status" test $status = 130 -o \
   $status = 143
 check 'a second signal: nothing is left' test -z "$(ls "$D")"
 # as nohup starts it
-(trap '' HUP; exec "$B/settle" --quiet --count 200 --method merson --time 1000 \
-  --log "$D/log" >"$T/out" 2>"$T/err") &
+env --default-signal --ignore-signal=HUP "$B/settle" --quiet --count 200 \
+  --method merson --time 1000 --log "$D/log" >"$T/out" 2>"$T/err" &
 pid=$!
 check 'nohup: it has begun' waits there "$D/log.partial-*"
 kill -s HUP $pid
