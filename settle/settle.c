@@ -66,10 +66,11 @@ int main(int argc, char **argv) {
                "mix:R1*SHARE,R2*SHARE,... or sieve:FILE; radii in m",
        .help = "distribution of radii; --mass is then of a sphere of the mean "
                "radius",
-       .parameter = true},
+       .parameter = true, .optional = true},
       {.name = "shares", .type = OPTION_TEXT, .value = &s.shares,
        .choices = size_shares, .unset = shares_unset,
-       .help = "what the shares of --sizes are of", .parameter = true},
+       .help = "what the shares of --sizes are of", .parameter = true,
+       .optional = true},
       {.name = "base", .type = OPTION_LIST, .value = &s.base, .least = 2,
        .most = 2, .unit = "m", .help = "sides of the box", .parameter = true,
        .dimension = {.length = 1}},

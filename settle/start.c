@@ -189,6 +189,17 @@ static void check_fixed(const struct bed *b, const char *name) {
     die(EXIT_INPUT, "%s: all spheres are fixed, expected one that moves", name);
 }
 
+/* Asked for, and the spheres of this scene have no use for it. */
+static void check_turning(const struct scene *scene,
+                          const struct option_spec *options) {
+  static const char *const names[] = {"rolling", "lever", NULL};
+  for (const struct option_spec *o = options; o->name; o++)
+    if (o->given && is_one_of(o, names) && !scene_has_rotation(scene))
+      die(EXIT_USAGE,
+          "--%s: nothing turns, expected --model rotation and friction",
+          o->name);
+}
+
 /* The mass by --density. */
 static void take_density(struct settings *s, struct option_spec *options) {
   if (!(s->density > 0))
@@ -276,7 +287,9 @@ static void write_header(struct settings *s, const struct option_spec *options,
     if (strlen(text) + 1 == sizeof text)
       die(EXIT_USAGE, "--%s: expected fewer than %zu characters", o->name,
           sizeof text - 1);
-    if (*text) /* what has not been asked for has no key */
+    if (o->optional && (!*text || !strcmp(text, "0")))
+      bed_header_remove(h, o->name);
+    else
       check_memory(bed_header_set(h, o->name, text));
   }
   for (size_t k = 0; k < s->scene.walls_count; k++) {
@@ -322,6 +335,7 @@ void start_make(struct settings *s, struct option_spec *options, struct bed *b,
     die(EXIT_INPUT, "%s: %s", name, wrong);
   if (wrong)
     die(EXIT_USAGE, "--%s", wrong);
+  check_turning(&s->scene, options);
   if (!s->scene_file) {
     s->fill.base[0] = s->base.at[0];
     s->fill.base[1] = s->base.at[1];

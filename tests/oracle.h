@@ -3,7 +3,8 @@
    wall, one formula after the other, without regard to speed. The optimised
    kernels are compared with it; it shares the structs scene and bed with them
    and no code. Beyond the paper: radii r_i and masses m_i, so gaps d - r_i -
-   r_j, torques with a sphere's own radius, I_i = 2/5 m_i r_i^2. */
+   r_j, torques with a sphere's own radius, I_i = 2/5 m_i r_i^2; and what
+   model/contact.h says of lever arms and of rolling resistance. */
 #ifndef ORACLE_H
 #define ORACLE_H
 
@@ -21,6 +22,7 @@ struct oracle_contact {
   double repulsion;     /* F[l] (N), 0 beyond lmax */
   double rep[3], fr[3]; /* forces (N) */
   double torque[3];     /* (N m) */
+  double roll;          /* speed of rolling (m/s) */
 };
 
 /* (2.1) */
@@ -74,19 +76,43 @@ static inline void oracle_friction(const struct scene *s,
                             c->t[k] / v;
 }
 
+/* Centre to contact point: that halves the gap, or is on the surface. */
+static inline double oracle_arm(const struct scene *s, double r, double gap) {
+  return s->law.lever == LEVER_CONTACT ? r + gap / 2 : r;
+}
+
+/* Adds the torque of rolling resistance. w: difference of spins; radius:
+   reduced. */
+static inline void oracle_roll(const struct scene *s, double radius,
+                               const double w[3], struct oracle_contact *c) {
+  double wxn[3], u[3];
+  oracle_cross(w, c->n, wxn);
+  oracle_cross(c->n, wxn, u); /* n x (w x n) is w without its part along n */
+  for (int k = 0; k < 3; k++)
+    u[k] *= radius;
+  const double v = c->roll = oracle_norm(u);
+  for (int k = 0; k < 3 && v > 0; k++)
+    c->torque[k] -=
+        s->law.rolling * c->repulsion * radius * oracle_sigma(s, v) * u[k] / v;
+}
+
 /* Spheres i and j: (2.2), (2.3), (2.6), (2.7), (2.11). */
 static inline struct oracle_contact
 oracle_pair(const struct scene *s, const struct bed *b, size_t i, size_t j) {
   struct oracle_contact c;
-  double x[3], v[3], rw[3], rwxx[3], xxf[3];
+  double x[3], v[3], w[3], rw[3], rwxx[3], xxf[3];
   for (size_t k = 0; k < 3; k++) {
     x[k] = b->x[3 * i + k] - b->x[3 * j + k];
     v[k] = b->v[3 * i + k] - b->v[3 * j + k];
-    rw[k] =
-        b->r[i] * oracle_spin(s, b, i, k) + b->r[j] * oracle_spin(s, b, j, k);
   }
   const double d = oracle_norm(x);
   c.gap = d - b->r[i] - b->r[j];
+  const double arm = oracle_arm(s, b->r[i], c.gap);
+  for (size_t k = 0; k < 3; k++) {
+    const double wi = oracle_spin(s, b, i, k), wj = oracle_spin(s, b, j, k);
+    rw[k] = arm * wi + oracle_arm(s, b->r[j], c.gap) * wj;
+    w[k] = wi - wj;
+  }
   c.rate = (x[0] * v[0] + x[1] * v[1] + x[2] * v[2]) / d;
   c.repulsion = oracle_f(s, c.gap);
   oracle_cross(rw, x, rwxx);
@@ -98,7 +124,8 @@ oracle_pair(const struct scene *s, const struct bed *b, size_t i, size_t j) {
   oracle_friction(s, &c);
   oracle_cross(x, c.fr, xxf);
   for (int k = 0; k < 3; k++)
-    c.torque[k] = -b->r[i] / d * xxf[k];
+    c.torque[k] = -arm / d * xxf[k];
+  oracle_roll(s, 1 / (1 / b->r[i] + 1 / b->r[j]), w, &c);
   return c;
 }
 
@@ -115,17 +142,19 @@ oracle_wall(const struct scene *s, const struct bed *b, size_t i, size_t wall) {
   const double vn = v[0] * n[0] + v[1] * n[1] + v[2] * n[2];
   c.gap = d - b->r[i];
   c.rate = -vn;
+  const double arm = oracle_arm(s, b->r[i], c.gap);
   c.repulsion = oracle_f(s, c.gap);
   oracle_cross(w, n, wxn);
   for (int k = 0; k < 3; k++) {
     c.n[k] = -n[k];
     c.rep[k] = -c.repulsion * oracle_rho(s, vn) * n[k];
-    c.t[k] = v[k] - vn * n[k] + b->r[i] * wxn[k];
+    c.t[k] = v[k] - vn * n[k] + arm * wxn[k];
   }
   oracle_friction(s, &c);
   oracle_cross(n, c.fr, nxf);
   for (int k = 0; k < 3; k++)
-    c.torque[k] = b->r[i] * nxf[k];
+    c.torque[k] = arm * nxf[k];
+  oracle_roll(s, b->r[i], w, &c);
   return c;
 }
 

@@ -97,6 +97,13 @@ static struct sample random_sample(gsl_rng *rng, const struct recipe *p) {
   return s;
 }
 
+/* The arms of the contact point, rolling resistance; only where spheres turn.
+ */
+static void set_sides(struct sample *s, bool lever, bool rolling) {
+  s->scene.law.lever = lever ? LEVER_CONTACT : LEVER_PAPER;
+  s->scene.law.rolling = rolling && s->scene.law.friction > 0 ? 0.15 : 0;
+}
+
 /* The right-hand side at a bed's state, split by kind: 3n each, 0 where spins
    are no unknowns. Rates have the order of states, which is not always the
    bed's, so they are unpacked like one. */
@@ -249,6 +256,11 @@ static void test_random_beds(gsl_rng *rng, unsigned long kernel) {
     p.speed = uniform(rng, 0.1, 5);
     struct sample s = random_sample(rng, &p);
     against_oracle(&s, "random bed", seed);
+    if (p.model == SCENE_ROTATION && p.phi > 0 && p.n > 1)
+      for (int sides = 1; sides < 4; sides++) {
+        set_sides(&s, sides % 2, sides / 2);
+        against_oracle(&s, "lever and rolling", seed);
+      }
     sample_free(&s);
   }
 }
@@ -555,6 +567,8 @@ static void test_momentum(gsl_rng *rng) {
                        0.2,
                        2};
     struct sample s = random_sample(rng, &p);
+    const bool lever = seed / 6 % 2;
+    set_sides(&s, lever, seed / 12);
     const size_t n = p.n;
     if (touching) /* a chain */
       for (size_t i = 1; i < n; i++) {
@@ -586,7 +600,7 @@ static void test_momentum(gsl_rng *rng) {
     double expected[3] = {0};
     /* the friction model holds the spins, by torques that nothing returns */
     const bool held = p.model == SCENE_FRICTION;
-    if (!touching || held)
+    if ((!touching && !lever) || held)
       for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < i; j++) {
           const struct oracle_contact c = oracle_pair(&s.scene, &s.bed, i, j);
@@ -619,6 +633,7 @@ static void test_power(gsl_rng *rng) {
     struct recipe p = {
         models[seed / 3 % 3], es[seed % 3], 0.2, true, true, 30, 3, 0.19, 3};
     struct sample s = random_sample(rng, &p);
+    set_sides(&s, seed / 9 % 2, seed / 18 % 2);
     double a[90], alpha[90], load[30], elastic[90], none[90], oracle[180];
     oracle_rates(&s.scene, &s.bed, oracle, oracle + 90, load);
     rates_once(&s, a, alpha);
@@ -817,6 +832,10 @@ static bool is_smooth(const struct sample *s) {
           j < s->bed.n ? oracle_pair(&s->scene, &s->bed, i, j)
                        : oracle_wall(&s->scene, &s->bed, i, j - s->bed.n);
       const double slip = oracle_norm(c.t) / s->scene.law.vmin;
+      const double roll = c.roll / s->scene.law.vmin;
+      if (c.gap < s->scene.law.lmax && scene_has_rolling(&s->scene) &&
+          (roll < 0.2 || fabs(roll - 1) < 0.05))
+        return false;
       if (fabs(c.gap - s->scene.law.lmax) < 1e-3 || c.gap < -0.1)
         return false;
       if (c.gap < s->scene.law.lmax && scene_has_friction(&s->scene) &&
@@ -925,8 +944,10 @@ static void test_jacobian(gsl_rng *rng) {
                        seed < 36 ? 0.05 : 1};
     struct sample s;
     int trials = 0;
-    for (s = random_sample(rng, &p); !is_smooth(&s) && trials < 10000;
-         trials++) {
+    for (s = random_sample(rng, &p);; trials++) {
+      set_sides(&s, seed / 12 % 2, seed / 6 % 2);
+      if (is_smooth(&s) || trials == 10000)
+        break;
       sample_free(&s);
       s = random_sample(rng, &p);
     }

@@ -3,14 +3,26 @@
 
 #include <math.h>
 
-/* Adds what the contact does to the sphere: force and n x friction force. */
+/* How the two of a contact turn; a wall has no radius and does not. */
+struct turning {
+  double ri, rj, reduced;     /* m */
+  const double *spin, *other; /* rad/s */
+};
+static const double no_spin[3];
+
+/* Adds what the contact does to the sphere: force, and n x friction force by
+   the arm in radii. */
 static void add_contact(const struct contact_law *law,
                         const struct contact_features has, const double n[3],
-                        double gap, const double w[3], const double s[3],
+                        double gap, const double w[3], const struct turning *q,
                         double force[3], double torque[3]) {
   if (gap > law->lmax)
     return;
-  double t[3], f[3], nxf[3];
+  double s[3] = {0}, t[3], f[3], nxf[3];
+  if (has.rotation) {
+    vec3_axpy(contact_arm(law, q->ri, gap), q->spin, s);
+    vec3_axpy(contact_arm(law, q->rj, gap), q->other, s);
+  }
   const double rate = contact_tangent(n, w, s, t);
   vec3_axpy(contact_normal(law, gap, rate), n, force);
   if (!has.friction)
@@ -20,7 +32,13 @@ static void add_contact(const struct contact_law *law,
   if (!has.rotation)
     return;
   vec3_cross(n, f, nxf);
-  vec3_axpy(1, nxf, torque);
+  vec3_axpy(contact_arm(law, q->ri, gap) / q->ri, nxf, torque);
+  if (!has.rolling)
+    return;
+  double rolls[3], roll[3];
+  vec3_sub(q->spin, q->other, rolls);
+  contact_roll(law, gap, q->reduced, n, rolls, roll);
+  vec3_axpy(-1 / q->ri, roll, torque);
 }
 
 bool allpairs_rates(const struct contact_list *list, const double *y,
@@ -37,7 +55,7 @@ bool allpairs_rates(const struct contact_list *list, const double *y,
         continue;
       const double *q = y + j * stride;
       const double rj = list->radius[j];
-      double u[3], w[3], s[3] = {0};
+      double u[3], w[3];
       vec3_sub(p, q, u);
       const double d = vec3_norm(u);
       if (d - ri - rj > list->law.lmax)
@@ -45,21 +63,21 @@ bool allpairs_rates(const struct contact_list *list, const double *y,
       for (int c = 0; c < 3; c++)
         u[c] /= d;
       vec3_sub(p + ROW_V, q + ROW_V, w);
-      if (spin) {
-        vec3_axpy(ri, p + ROW_W, s);
-        vec3_axpy(rj, q + ROW_W, s);
-      }
-      add_contact(&list->law, list->has, u, d - ri - rj, w, s, force, torque);
+      const struct turning turning = {ri, rj, contact_reduced(ri, rj),
+                                      spin ? p + ROW_W : no_spin,
+                                      spin ? q + ROW_W : no_spin};
+      add_contact(&list->law, list->has, u, d - ri - rj, w, &turning, force,
+                  torque);
     }
     for (size_t m = 0; m < list->walls_count; m++) {
       const struct wall *wall = &list->walls[m];
-      double normal[3], s[3] = {0};
+      const struct turning turning = {ri, 0, ri, spin ? p + ROW_W : no_spin,
+                                      no_spin};
+      double normal[3];
       for (int c = 0; c < 3; c++)
         normal[c] = -wall->normal[c];
-      if (spin)
-        vec3_axpy(ri, p + ROW_W, s);
       add_contact(&list->law, list->has, normal, wall_distance(wall, p) - ri,
-                  p + ROW_V, s, force, torque);
+                  p + ROW_V, &turning, force, torque);
     }
     double *rate = dydt + i * stride;
     for (int c = 0; c < 3; c++) {

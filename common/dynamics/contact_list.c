@@ -182,7 +182,9 @@ int contact_list_alloc(struct contact_list **out, const struct scene *s,
   l->has = (struct contact_features){.friction = scene_has_friction(s),
                                      .rotation = scene_has_rotation(s),
                                      .elastic = s->law.restitution == 1,
-                                     .uniform = uniform};
+                                     .lever = scene_has_lever(s),
+                                     .rolling = scene_has_rolling(s)};
+  l->has.uniform = uniform && !l->has.lever && !l->has.rolling;
   l->stride = l->has.rotation ? ROW_SPIN : ROW_PLAIN;
   for (int c = 0; c < 3; c++)
     l->gravity[c] = s->gravity[c];

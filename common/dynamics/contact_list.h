@@ -19,7 +19,9 @@
 struct contact_features {
   bool friction, rotation;
   bool elastic; /* e = 1: no rebound function */
-  bool uniform; /* equal radii */
+  bool uniform; /* equal radii, and none of the following */
+  bool lever;   /* arms of the contact point */
+  bool rolling; /* resistance */
 };
 
 /* Doubles in the sum of a row: force, 0, sum of n x friction, 0; and rows that

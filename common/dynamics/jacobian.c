@@ -2,7 +2,9 @@
 /* A contact's force depends on u = x_i - x_j, the relative velocity w and the
    sum of radius times spin s. Derivatives follow from the chain rule over the
    normal n = u/d, the gap rate n.w and the slip velocity t; P is the projector
-   onto the tangent plane. A wall has a fixed normal: dn/du = 0. */
+   onto the tangent plane. A wall has a fixed normal: dn/du = 0. With the arms
+   of the contact point the sum and the torque depend on the gap as well, by
+   l/2. Rolling resistance adds a torque of u and of the difference of spins. */
 #include "dynamics/jacobian.h"
 
 #include <string.h>
@@ -14,7 +16,30 @@ typedef double matrix[3][3];
 struct derivatives {
   matrix force_u, force_w, force_s;
   matrix torque_u, torque_w, torque_s; /* of n x friction force */
+  double torque[3], n[3], gap;         /* that, for its arm */
+  matrix roll_u, roll_spin;            /* of the torque of rolling resistance */
 };
+
+/* How the two of a contact turn; a wall has no radius and does not. */
+struct turning {
+  double reduced;                        /* m */
+  double arms[3], sum[3], difference[3]; /* arms by spins (m/s); of spins */
+};
+
+static struct turning turn_of(const struct contact_list *list, double gap,
+                              double ri, const double *wi, double rj,
+                              const double *wj) {
+  struct turning q = {.reduced = wj ? contact_reduced(ri, rj) : ri};
+  vec3_axpy(contact_arm(&list->law, ri, gap), wi, q.arms);
+  vec3_axpy(1, wi, q.sum);
+  vec3_axpy(1, wi, q.difference);
+  if (wj) {
+    vec3_axpy(contact_arm(&list->law, rj, gap), wj, q.arms);
+    vec3_axpy(1, wj, q.sum);
+    vec3_axpy(-1, wj, q.difference);
+  }
+  return q;
+}
 
 /* m += a * x y^T */
 static void add_outer(matrix m, double a, const double x[3],
@@ -41,18 +66,71 @@ static void add_product(matrix a, matrix b, matrix c) {
         c[i][j] += a[i][k] * b[k][j];
 }
 
+/* m += a * (b x) y^T */
+static void add_product_outer(matrix m, double a, matrix b, const double x[3],
+                              const double y[3]) {
+  double bx[3];
+  for (int i = 0; i < 3; i++)
+    bx[i] = vec3_dot(b[i], x);
+  add_outer(m, a, bx, y);
+}
+
 static void add_matrix(double a, matrix x, matrix y) {
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)
       y[i][j] += a * x[i][j];
 }
 
+/* Friction and rolling resistance are a factor k = Sigma/v of a velocity v; m
+   += a d(k v)/dv. Returns k. */
+static double add_slip(const struct contact_law *c, const double v[3], double a,
+                       matrix m) {
+  const double speed = vec3_norm(v), vmin = c->vmin;
+  const double slip = contact_slip(c, speed);
+  double unit[3] = {0};
+  if (speed > 0)
+    for (int i = 0; i < 3; i++)
+      unit[i] = v[i] / speed;
+  const double slope =
+      speed < vmin ? 3 / (vmin * vmin) - 4 * speed / (vmin * vmin * vmin)
+                   : -1 / (speed * speed);
+  for (int i = 0; i < 3; i++)
+    m[i][i] += a * slip;
+  add_outer(m, a * slope * speed, unit, unit);
+  return slip;
+}
+
+/* The torque of contact_roll by u and by the difference of spins. p: P. */
+static void add_rolling(const struct contact_law *c, const double n[3],
+                        double f, double curvature, matrix p,
+                        const struct turning *q, struct derivatives *d) {
+  const double along = vec3_dot(q->difference, n);
+  double v[3], tangent[3];
+  for (int i = 0; i < 3; i++) {
+    tangent[i] = q->difference[i] - along * n[i];
+    v[i] = q->reduced * tangent[i];
+  }
+  matrix by_v = {{0}}, v_u = {{0}};
+  const double slip = add_slip(c, v, -c->rolling * f * q->reduced, by_v);
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      for (int k = 0; k < 3; k++)
+        d->roll_spin[i][j] += q->reduced * by_v[i][k] * p[k][j];
+  add_outer(v_u, -q->reduced * curvature, n, tangent);
+  add_matrix(-q->reduced * curvature * along, p, v_u);
+  add_product(by_v, v_u, d->roll_u);
+  add_outer(d->roll_u, c->kappa * c->rolling * f * q->reduced * slip, v, n);
+}
+
 /* curvature: 1/d for two spheres, 0 for a wall, so that dn/du = curvature P. */
 static void differentiate(const struct contact_law *c,
                           const struct contact_features has, const double n[3],
                           double gap, double curvature, const double w[3],
-                          const double s[3], struct derivatives *d) {
+                          const struct turning *q, struct derivatives *d) {
+  const double *s = q->arms;
   memset(d, 0, sizeof *d);
+  d->gap = gap;
+  memcpy(d->n, n, sizeof d->n);
   if (gap > c->lmax)
     return;
   const double f = contact_repulsion(c, gap);
@@ -74,19 +152,8 @@ static void differentiate(const struct contact_law *c,
     return;
 
   /* the friction force is -phi F S(|t|) t with S = Sigma/v */
-  const double v = vec3_norm(t), vmin = c->vmin;
-  const double slip = contact_slip(c, v);
-  double unit[3] = {0};
-  if (v > 0)
-    for (int i = 0; i < 3; i++)
-      unit[i] = t[i] / v;
-  const double slip_v = v < vmin
-                            ? 3 / (vmin * vmin) - 4 * v / (vmin * vmin * vmin)
-                            : -1 / (v * v);
   matrix force_t = {{0}};
-  for (int i = 0; i < 3; i++)
-    force_t[i][i] = -c->friction * f * slip;
-  add_outer(force_t, -c->friction * f * slip_v * v, unit, unit);
+  const double slip = add_slip(c, t, -c->friction * f, force_t);
 
   matrix t_u = {{0}}, t_s = {{0}}, cross_s = {{0}};
   add_outer(t_u, -1, n, rate_u);
@@ -115,6 +182,13 @@ static void differentiate(const struct contact_law *c,
   add_product(cross_f, p, d->torque_u);
   add_product(cross_n, fr_w, d->torque_w);
   add_product(cross_n, fr_s, d->torque_s);
+  vec3_cross(n, friction, d->torque);
+  if (has.lever) {
+    add_product_outer(d->force_u, 0.5, d->force_s, q->sum, n);
+    add_product_outer(d->torque_u, 0.5, d->torque_s, q->sum, n);
+  }
+  if (has.rolling)
+    add_rolling(c, n, f, curvature, p, q, d);
 }
 
 struct dense {
@@ -144,12 +218,23 @@ static void add_body(const struct contact_list *list, const struct dense *m,
   add_block(m, i, ROW_V, j, ROW_V, a * sign, d->force_w);
   if (!list->has.rotation)
     return;
-  const double r = list->radius[j],
-               b = -2.5 / (list->mass[i] * list->radius[i]);
+  const double ri = list->radius[i], b = -2.5 / (list->mass[i] * ri);
+  const double r = contact_arm(&list->law, list->radius[j], d->gap);
   add_block(m, i, ROW_V, j, ROW_W, a * r, d->force_s);
-  add_block(m, i, ROW_W, j, ROW_X, b * sign, d->torque_u);
-  add_block(m, i, ROW_W, j, ROW_V, b * sign, d->torque_w);
-  add_block(m, i, ROW_W, j, ROW_W, b * r, d->torque_s);
+  const double arm = contact_arm(&list->law, ri, d->gap) / ri;
+  add_block(m, i, ROW_W, j, ROW_X, arm * b * sign, d->torque_u);
+  add_block(m, i, ROW_W, j, ROW_V, arm * b * sign, d->torque_w);
+  add_block(m, i, ROW_W, j, ROW_W, arm * b * r, d->torque_s);
+  if (list->has.lever) {
+    matrix by_arm = {{0}};
+    add_outer(by_arm, 0.5 / ri, d->torque, d->n);
+    add_block(m, i, ROW_W, j, ROW_X, b * sign, by_arm);
+  }
+  if (list->has.rolling) {
+    const double couple = -b / ri * force_sign * sign;
+    add_block(m, i, ROW_W, j, ROW_X, couple, d->roll_u);
+    add_block(m, i, ROW_W, j, ROW_W, couple, d->roll_spin);
+  }
 }
 
 void jacobian_dense(const struct contact_list *list, const double *y,
@@ -166,18 +251,17 @@ void jacobian_dense(const struct contact_list *list, const double *y,
     const size_t i = list->near.i[c], j = list->near.j[c];
     const double *p = y + i * stride, *q = y + j * stride;
     const double ri = list->radius[i], rj = list->radius[j];
-    double u[3], w[3], s[3] = {0};
+    struct turning turning = {0};
+    double u[3], w[3];
     vec3_sub(p, q, u);
     vec3_sub(p + ROW_V, q + ROW_V, w);
-    if (list->has.rotation) {
-      vec3_axpy(ri, p + ROW_W, s);
-      vec3_axpy(rj, q + ROW_W, s);
-    }
     const double distance = vec3_norm(u);
+    if (list->has.rotation)
+      turning = turn_of(list, distance - ri - rj, ri, p + ROW_W, rj, q + ROW_W);
     const double normal[3] = {u[0] / distance, u[1] / distance,
                               u[2] / distance};
     differentiate(&list->law, list->has, normal, distance - ri - rj,
-                  1 / distance, w, s, &d);
+                  1 / distance, w, &turning, &d);
     add_body(list, &m, i, i, 1, 1, &d);
     add_body(list, &m, i, j, 1, -1, &d);
     add_body(list, &m, j, i, -1, 1, &d);
@@ -187,13 +271,14 @@ void jacobian_dense(const struct contact_list *list, const double *y,
     const size_t i = list->wall_row[c];
     const struct wall *wall = &list->walls[list->wall_id[c]];
     const double *p = y + i * stride;
-    double s[3] = {0}, normal[3];
+    const double ri = list->radius[i], gap = wall_distance(wall, p) - ri;
+    struct turning turning = {0};
+    double normal[3];
     for (int a = 0; a < 3; a++)
       normal[a] = -wall->normal[a];
     if (list->has.rotation)
-      vec3_axpy(list->radius[i], p + ROW_W, s);
-    differentiate(&list->law, list->has, normal,
-                  wall_distance(wall, p) - list->radius[i], 0, p + ROW_V, s,
+      turning = turn_of(list, gap, ri, p + ROW_W, 0, NULL);
+    differentiate(&list->law, list->has, normal, gap, 0, p + ROW_V, &turning,
                   &d);
     add_body(list, &m, i, i, 1, 1, &d);
   }

@@ -28,7 +28,19 @@ struct block {
   double sx[BLOCK], sy[BLOCK], sz[BLOCK]; /* sum of radius * spin */
   double fx[BLOCK], fy[BLOCK], fz[BLOCK]; /* force */
   double tx[BLOCK], ty[BLOCK], tz[BLOCK]; /* n x friction force */
+  /* Where the torques of the two are not equal: 1/r of the sphere and of the
+     other (0: a wall), their reduced radius, sum and difference of their spins,
+     and what the other has of t. */
+  double inverse_i[BLOCK], inverse_j[BLOCK], reduced[BLOCK];
+  double px[BLOCK], py[BLOCK], pz[BLOCK];
+  double qx[BLOCK], qy[BLOCK], qz[BLOCK];
+  double ox[BLOCK], oy[BLOCK], oz[BLOCK];
 };
+
+/* Whether the torques on both spheres of a contact, by radius, differ. */
+INLINE bool has_sides(const struct contact_features has) {
+  return has.lever || has.rolling;
+}
 
 /* Where registers hold four doubles. */
 #ifdef __AVX2__
@@ -83,6 +95,17 @@ INLINE void load_pair(const struct contact_list *list, const double *y,
   }
   if (!has.uniform)
     b->gap[c] = -(ri + rj);
+  if (has_sides(has)) {
+    b->inverse_i[c] = 1 / ri;
+    b->inverse_j[c] = 1 / rj;
+    b->reduced[c] = contact_reduced(ri, rj);
+    b->px[c] = p[ROW_W] + q[ROW_W];
+    b->py[c] = p[ROW_W + 1] + q[ROW_W + 1];
+    b->pz[c] = p[ROW_W + 2] + q[ROW_W + 2];
+    b->qx[c] = p[ROW_W] - q[ROW_W];
+    b->qy[c] = p[ROW_W + 1] - q[ROW_W + 1];
+    b->qz[c] = p[ROW_W + 2] - q[ROW_W + 2];
+  }
 }
 
 /* The same for four pairs of equal spheres. */
@@ -172,20 +195,68 @@ INLINE void load_walls(const struct contact_list *list, const double *y,
       b->sy[c] = r * p[ROW_W + 1];
       b->sz[c] = r * p[ROW_W + 2];
     }
+    if (has_sides(has)) {
+      b->inverse_i[c] = 1 / r;
+      b->inverse_j[c] = 0;
+      b->reduced[c] = r;
+      b->px[c] = b->qx[c] = p[ROW_W];
+      b->py[c] = b->qy[c] = p[ROW_W + 1];
+      b->pz[c] = b->qz[c] = p[ROW_W + 2];
+    }
   }
 }
 
 /* Fills a block up to whole vectors with idle contacts, so that a contact is
    computed the same way, to the last bit, wherever it stands in a block. */
-INLINE size_t pad(struct block *b, size_t count) {
+INLINE size_t pad(struct block *b, size_t count,
+                  const struct contact_features has) {
   const size_t padded = (count + LANES - 1) / LANES * LANES;
   for (; count < padded; count++) {
     b->nx[count] = 1;
     b->ny[count] = b->nz[count] = b->gap[count] = 0;
     b->vx[count] = b->vy[count] = b->vz[count] = 0;
     b->sx[count] = b->sy[count] = b->sz[count] = 0;
+    if (has_sides(has)) {
+      b->inverse_i[count] = b->inverse_j[count] = b->reduced[count] = 0;
+      b->px[count] = b->py[count] = b->pz[count] = 0;
+      b->qx[count] = b->qy[count] = b->qz[count] = 0;
+    }
   }
   return padded;
+}
+
+/* n x f as it turns the sphere and the other, who multiply it by -r/I: with the
+   arms of the contact point, and with the couple of rolling resistance. */
+INLINE void evaluate_sides(const struct contact_law *law, size_t c, double f,
+                           struct block *b, const struct contact_features has) {
+  const double tx = b->tx[c], ty = b->ty[c], tz = b->tz[c];
+  const double i = b->inverse_i[c], j = b->inverse_j[c];
+  const double half = has.lever ? 0.5 * b->gap[c] : 0;
+  const double own = 1 + half * i, other = 1 + half * j;
+  double ux = 0, uy = 0, uz = 0;
+  if (has.rolling) {
+    const double nx = b->nx[c], ny = b->ny[c], nz = b->nz[c];
+    const double qx = b->qx[c], qy = b->qy[c], qz = b->qz[c];
+    const double along = qx * nx + qy * ny + qz * nz;
+    const double reduced = b->reduced[c], vmin = law->vmin;
+    ux = reduced * (qx - along * nx);
+    uy = reduced * (qy - along * ny);
+    uz = reduced * (qz - along * nz);
+    const double u = sqrt(ux * ux + uy * uy + uz * uz);
+    const double s = u / vmin;
+    const double slip =
+        u < vmin ? (3 - 2 * s) * s / vmin : 1 / (u < vmin ? vmin : u);
+    const double g = law->rolling * f * reduced * slip;
+    ux *= g;
+    uy *= g;
+    uz *= g;
+  }
+  b->tx[c] = own * tx + i * ux;
+  b->ty[c] = own * ty + i * uy;
+  b->tz[c] = own * tz + i * uz;
+  b->ox[c] = other * tx - j * ux;
+  b->oy[c] = other * ty - j * uy;
+  b->oz[c] = other * tz - j * uz;
 }
 
 /* The law: contact.h, written for columns. */
@@ -209,7 +280,13 @@ INLINE void evaluate(const struct contact_law *law, size_t count,
     if (has.friction) {
       double tx = vx - rate * nx, ty = vy - rate * ny, tz = vz - rate * nz;
       if (has.rotation) {
-        const double sx = b->sx[c], sy = b->sy[c], sz = b->sz[c];
+        double sx = b->sx[c], sy = b->sy[c], sz = b->sz[c];
+        if (has.lever) {
+          const double half = 0.5 * b->gap[c];
+          sx += half * b->px[c];
+          sy += half * b->py[c];
+          sz += half * b->pz[c];
+        }
         tx -= sy * nz - sz * ny;
         ty -= sz * nx - sx * nz;
         tz -= sx * ny - sy * nx;
@@ -229,6 +306,8 @@ INLINE void evaluate(const struct contact_law *law, size_t count,
         b->tx[c] = ny * tz - nz * ty;
         b->ty[c] = nz * tx - nx * tz;
         b->tz[c] = nx * ty - ny * tx;
+        if (has_sides(has))
+          evaluate_sides(law, c, f, b, has);
       }
     }
     b->fx[c] = fx;
@@ -270,6 +349,12 @@ INLINE bool within(const struct contact_part *part, size_t i) {
   return i >= part->from && i < part->to;
 }
 
+/* The torque of the other sphere of a contact. */
+INLINE vec4 other_torque(const struct block *b, size_t c, vec4 own,
+                         const struct contact_features has) {
+  return has_sides(has) ? (vec4){b->ox[c], b->oy[c], b->oz[c], 0} : own;
+}
+
 /* As second partner the force is reversed, the torque is not. The first
    partner's sum stays in registers over its run of pairs. */
 INLINE void scatter_pairs(const struct block *b, const uint32_t *i,
@@ -309,7 +394,8 @@ INLINE void scatter_pairs(const struct block *b, const uint32_t *i,
         double *other = sum_of(part, j[c + l]);
         vec4_store(vec4_load(other) - f[l], other);
         if (has.rotation)
-          vec4_store(vec4_load(other + 4) + t[l], other + 4);
+          vec4_store(vec4_load(other + 4) + other_torque(b, c + l, t[l], has),
+                     other + 4);
       }
     }
   }
@@ -328,7 +414,7 @@ INLINE void add_pairs(const struct contact_list *list, const double *y,
   for (size_t from = 0; from < count; from += BLOCK) {
     const size_t some = count - from < BLOCK ? count - from : BLOCK;
     load_pairs(list, y, i + from, j + from, some, &b, has);
-    const size_t padded = pad(&b, some);
+    const size_t padded = pad(&b, some, has);
     normalise(list, padded, &b, has);
     evaluate(&list->law, padded, &b, has);
     scatter_pairs(&b, i + from, j + from, some, part, has);
@@ -343,7 +429,7 @@ INLINE void add_walls(const struct contact_list *list, const double *y,
   for (size_t w = list->wall_first[from]; w < end; w += BLOCK) {
     const size_t some = end - w < BLOCK ? end - w : BLOCK;
     load_walls(list, y, w, some, &b, has);
-    evaluate(&list->law, pad(&b, some), &b, has);
+    evaluate(&list->law, pad(&b, some, has), &b, has);
     for (size_t c = 0; c < some; c++) {
       double *sum = sum_of(part, list->wall_row[w + c]);
       sum[0] += b.fx[c];
@@ -396,23 +482,41 @@ INLINE bool finish(const struct contact_list *list, const double *y,
 #define DISPATCH(call)                                                         \
   do {                                                                         \
     const struct contact_features h = list->has;                               \
-    if (h.rotation)                                                            \
+    if (h.lever && h.rolling)                                                  \
+      DISPATCH_SIDES(call, true, true);                                        \
+    else if (h.lever)                                                          \
+      DISPATCH_SIDES(call, true, false);                                       \
+    else if (h.rolling)                                                        \
+      DISPATCH_SIDES(call, false, true);                                       \
+    else if (h.rotation)                                                       \
       DISPATCH_REST(call, true, true);                                         \
     else if (h.friction)                                                       \
       DISPATCH_REST(call, true, false);                                        \
     else                                                                       \
       DISPATCH_REST(call, false, false);                                       \
   } while (0)
+#define DISPATCH_SIDES(call, lever, rolling)                                   \
+  do {                                                                         \
+    if (h.elastic)                                                             \
+      call(((struct contact_features){true, true, true, false, lever,          \
+                                      rolling}));                              \
+    else                                                                       \
+      call(((struct contact_features){true, true, false, false, lever,         \
+                                      rolling}));                              \
+  } while (0)
 #define DISPATCH_REST(call, friction, rotation)                                \
   do {                                                                         \
     if (h.elastic && h.uniform)                                                \
-      call(((struct contact_features){friction, rotation, true, true}));       \
+      call(((struct contact_features){friction, rotation, true, true, 0, 0})); \
     else if (h.elastic)                                                        \
-      call(((struct contact_features){friction, rotation, true, false}));      \
+      call(                                                                    \
+          ((struct contact_features){friction, rotation, true, false, 0, 0})); \
     else if (h.uniform)                                                        \
-      call(((struct contact_features){friction, rotation, false, true}));      \
+      call(                                                                    \
+          ((struct contact_features){friction, rotation, false, true, 0, 0})); \
     else                                                                       \
-      call(((struct contact_features){friction, rotation, false, false}));     \
+      call((                                                                   \
+          (struct contact_features){friction, rotation, false, false, 0, 0})); \
   } while (0)
 
 static void add_pairs_any(const struct contact_list *list, const double *y,

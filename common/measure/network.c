@@ -16,7 +16,7 @@ void network_free(struct network *w) {
 }
 
 /* The law: u, velocity of the sphere less that of the other body; spin, sum of
-   radius times angular velocity of both. */
+   lever arm times angular velocity of both. */
 static void set_forces(struct network_contact *c, const struct scene *s,
                        const double u[3], const double spin[3]) {
   double t[3];
@@ -39,8 +39,8 @@ static void set_pair(struct network_contact *c, const struct scene *s,
   c->gap = d - b->r[i] - b->r[j];
   vec3_sub(b->v + 3 * i, b->v + 3 * j, u);
   if (scene_has_rotation(s)) {
-    vec3_axpy(b->r[i], b->w + 3 * i, spin);
-    vec3_axpy(b->r[j], b->w + 3 * j, spin);
+    vec3_axpy(contact_arm(&s->law, b->r[i], c->gap), b->w + 3 * i, spin);
+    vec3_axpy(contact_arm(&s->law, b->r[j], c->gap), b->w + 3 * j, spin);
   }
   set_forces(c, s, u, spin);
 }
@@ -52,7 +52,7 @@ static void set_wall(struct network_contact *c, const struct scene *s,
       .i = i, .j = k, .wall = true, .counts = true, .gap = gap};
   vec3_axpy(-1, s->walls[k].normal, c->n);
   if (scene_has_rotation(s))
-    vec3_axpy(b->r[i], b->w + 3 * i, spin);
+    vec3_axpy(contact_arm(&s->law, b->r[i], gap), b->w + 3 * i, spin);
   set_forces(c, s, b->v + 3 * i, spin);
 }
 

@@ -7,12 +7,48 @@
    other body's centre to the sphere's, or a wall's inward normal; l is the gap
    between the surfaces (m), negative where they overlap. Units are SI; the
    paper's spheres have unit mass. Safe in any thread. Tested in
-   tests/test_contact.c. */
+   tests/test_contact.c, on beds in tests/test_dynamics.c and on collisions of
+   unequal spheres in tests/test_pairs.c.
+
+   Unequal spheres (not in the paper). F, rho and Sigma depend on the gap and
+   the velocities alone, so they hold for any radii and masses. A force f on
+   sphere i and -f on sphere j keep the momentum. Their distance is d = r_i +
+   r_j + l, so they turn the pair by d n x f; what turns the spheres are the
+   torques -a_i n x f and -a_j n x f, with lever arms a. The sum (d - a_i - a_j)
+   n x f is what angular momentum changes by:
+
+     paper    a = r        l n x f: kept only at touch. Equal spheres or not.
+     contact  a = r + l/2  0: kept. The contact point halves the gap.
+
+   The slip velocity has the same arms, t = w - (w.n) n - (a_i w_i + a_j w_j) x
+   n, so that friction does the work f.t <= 0 and no other. A pair that turns as
+   one body, with the angular velocity W, slips by l |W x n| with the paper's
+   arms and not at all with the others. The paper's are the default, so that a
+   mixture of equal spheres is the paper's bed; at the overlaps of a bed, a few
+   per cent of r, the two differ by as much.
+
+   Along n a pair moves like one body of the mass m_i m_j/(m_i + m_j); e does
+   not depend on it, since (2.4) has velocities only. Against slip it has the
+   mass m' of 1/m' = 1/m_i + 1/m_j + a_i^2/I_i + a_j^2/I_j, which at touch is
+   2/7 of that along n.
+
+   Rolling resistance (not in the paper). The surfaces roll on each other with
+   the velocity u = R (w_ij - (w_ij.n) n), w_ij = w_i - w_j, where R is the
+   reduced radius r_i r_j/(r_i + r_j), at a wall r_i. The torque on i is
+   -X F[l] R Sigma[|u|] u/|u|, on j the opposite: a couple, which keeps momentum
+   and angular momentum and takes the energy X F Sigma |u|. It is smooth, and as
+   slip below vmin creeps, so does rolling: on a slope nothing is ever quite at
+   rest. A sphere that rolls on the floor, faster than vmin, slows down by
+   5/7 X 2 g/(1 + e^2), as long as friction holds it (5/7 X < phi), because at
+   rest F = 2 m g/(1 + e^2). */
 #ifndef CONTACT_H
 #define CONTACT_H
 
 #include <math.h>
 #include "geometry/vec3.h"
+
+/* Lever arms of friction, see above. */
+enum contact_lever { LEVER_PAPER, LEVER_CONTACT };
 
 struct contact_law {
   double f0;          /* F0, repulsion at touch (N) */
@@ -22,6 +58,8 @@ struct contact_law {
   double friction;    /* phi, friction coefficient */
   double vmin;        /* slip speed of full friction (m/s) */
   double lmax;        /* gap beyond which a contact is skipped (m) */
+  double rolling;     /* X, of rolling resistance; 0: none, the paper's */
+  enum contact_lever lever;
 };
 
 /* F[l], magnitude of the repulsion (N), (2.1). */
@@ -63,9 +101,20 @@ static inline double contact_normal(const struct contact_law *c, double l,
   return contact_repulsion(c, l) * contact_rebound(c, -lrate);
 }
 
+/* Distance of the contact point from the centre of a sphere, its lever arm. */
+static inline double contact_arm(const struct contact_law *c, double radius,
+                                 double l) {
+  return c->lever == LEVER_CONTACT ? radius + 0.5 * l : radius;
+}
+
+/* Reduced radius of two spheres (m); with a wall it is the sphere's. */
+static inline double contact_reduced(double ri, double rj) {
+  return ri * rj / (ri + rj);
+}
+
 /* Relative velocity t of the surfaces in the tangent plane, (2.7) and (2.10).
    w: velocity of the sphere less that of the other body (m/s); s: sum of
-   radius times angular velocity of both (m/s). Returns l' = w.n. */
+   lever arm times angular velocity of both (m/s). Returns l' = w.n. */
 static inline double contact_tangent(const double n[3], const double w[3],
                                      const double s[3], double t[3]) {
   const double lrate = vec3_dot(w, n);
@@ -77,14 +126,30 @@ static inline double contact_tangent(const double n[3], const double w[3],
 }
 
 /* Friction force on the sphere (N), (2.6) and (2.9), for slip velocity t.
-   The torque on it is -r n x f, (2.11) and (2.12); the other body's force is
-   -f and its torque has the same sign. */
+   The torque on it is -r n x f, (2.11) and (2.12), with r the lever arm; the
+   other body's force is -f and its torque has the same sign. */
 static inline void contact_friction(const struct contact_law *c, double l,
                                     const double t[3], double f[3]) {
   const double k =
       -c->friction * contact_repulsion(c, l) * contact_slip(c, vec3_norm(t));
   for (int i = 0; i < 3; i++)
     f[i] = k * t[i];
+}
+
+/* Torque of rolling resistance on the sphere (N m); the other body's is the
+   opposite. reduced: R (m); w: angular velocity of the sphere less that of the
+   other body (rad/s). */
+static inline void contact_roll(const struct contact_law *c, double l,
+                                double reduced, const double n[3],
+                                const double w[3], double torque[3]) {
+  const double along = vec3_dot(w, n);
+  double u[3];
+  for (int i = 0; i < 3; i++)
+    u[i] = reduced * (w[i] - along * n[i]);
+  const double k = -c->rolling * contact_repulsion(c, l) * reduced *
+                   contact_slip(c, vec3_norm(u));
+  for (int i = 0; i < 3; i++)
+    torque[i] = k * u[i];
 }
 
 /* Energy stored in a contact (J), the integral of (2.1) from l to infinity. */

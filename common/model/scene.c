@@ -38,12 +38,35 @@ struct scene scene_default(void) {
                         .gravity = {0, 0, -9.81}};
 }
 
+const struct scene_lever scene_levers[] = {
+    [LEVER_PAPER] = {"paper", "the radii"},
+    [LEVER_CONTACT] = {"contact", "distances of the contact point, which keep "
+                                  "angular momentum"},
+    {0}};
+
+int scene_lever_named(const char *name, enum contact_lever *lever) {
+  for (size_t k = 0; scene_levers[k].name; k++)
+    if (!strcmp(scene_levers[k].name, name)) {
+      *lever = (enum contact_lever)k;
+      return GSL_SUCCESS;
+    }
+  return GSL_EINVAL;
+}
+
 bool scene_has_friction(const struct scene *s) {
   return scene_models[s->model].friction && s->law.friction > 0;
 }
 
 bool scene_has_rotation(const struct scene *s) {
   return scene_models[s->model].rotation && s->law.friction > 0;
+}
+
+bool scene_has_rolling(const struct scene *s) {
+  return scene_has_rotation(s) && s->law.rolling > 0;
+}
+
+bool scene_has_lever(const struct scene *s) {
+  return scene_has_rotation(s) && s->law.lever != LEVER_PAPER;
 }
 
 int scene_add_wall(struct scene *s, const double point[3],
@@ -90,6 +113,8 @@ const char *scene_check(const struct scene *s) {
     return "restitution must be between 0 and 1";
   if (!(c->friction >= 0 && gsl_finite(c->friction)))
     return "friction must not be negative";
+  if (!(c->rolling >= 0 && gsl_finite(c->rolling)))
+    return "rolling must not be negative";
   if (!(c->vmin > 0 && gsl_finite(c->vmin)))
     return "vmin must be positive";
   if (!(c->lmax > 0 && gsl_finite(c->lmax)))

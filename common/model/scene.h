@@ -8,6 +8,12 @@
 #include <stddef.h>
 #include "model/contact.h"
 
+/* Lever arms by name: the enum contact_lever. */
+struct scene_lever {
+  const char *name, *help;
+};
+extern const struct scene_lever scene_levers[];
+
 /* The paper's three variants (section 3). */
 enum scene_model { SCENE_BASIC, SCENE_FRICTION, SCENE_ROTATION };
 
@@ -20,6 +26,9 @@ extern const struct scene_variant scene_models[];
 
 /* The variant of that name, or GSL_EINVAL. */
 int scene_model_named(const char *name, enum scene_model *model);
+
+/* The lever of that name, or GSL_EINVAL. */
+int scene_lever_named(const char *name, enum contact_lever *lever);
 
 /* A plane; the spheres are on the side that the normal points away from. */
 struct wall {
@@ -43,6 +52,9 @@ struct scene scene_default(void);
    friction nothing turns. */
 bool scene_has_friction(const struct scene *s);
 bool scene_has_rotation(const struct scene *s);
+/* What only turning spheres have. */
+bool scene_has_rolling(const struct scene *s);
+bool scene_has_lever(const struct scene *s);
 
 /* Appends a wall; the normal is scaled to unit length. Returns GSL_EINVAL if
    it has none or a number is not finite, GSL_ENOMEM. */

@@ -9,17 +9,24 @@
 
 struct scene_words scene_words_default(void) {
   const struct scene s = scene_default();
-  return (struct scene_words){scene_models[s.model].name, {1, {-s.gravity[2]}}};
+  return (struct scene_words){.model = scene_models[s.model].name,
+                              .gravity = {1, {-s.gravity[2]}}};
 }
 
 int scene_wall_option(const struct option_list *v, void *scene) {
   return scene_add_wall(scene, v->at, v->at + 3);
 }
 
+void scene_lever_unset(char *text, size_t size) {
+  snprintf(text, size, "%s", scene_levers[0].name);
+}
+
 const char *scene_finish(struct scene *s, const struct scene_words *w) {
   const struct option_list *g = &w->gravity;
   if (scene_model_named(w->model, &s->model) != GSL_SUCCESS)
     return "model: expected basic, friction or rotation";
+  if (w->lever && scene_lever_named(w->lever, &s->law.lever) != GSL_SUCCESS)
+    return "lever: expected paper or contact";
   if (g->count != 1 && g->count != 3)
     return "gravity: expected one number or three";
   for (int k = 0; k < 3; k++)

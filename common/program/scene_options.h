@@ -12,6 +12,7 @@
 /* Options that describe a scene in other words than struct scene. */
 struct scene_words {
   const char *model;          /* name of one of scene_models */
+  const char *lever;          /* of one of scene_levers, NULL: the first */
   struct option_list gravity; /* one number, downwards, or three */
 };
 
@@ -20,6 +21,9 @@ struct scene_words scene_words_default(void);
 
 /* For option wall: appends {px, py, pz, nx, ny, nz} to a struct scene. */
 int scene_wall_option(const struct option_list *v, void *scene);
+
+/* What --help says of lever's default. */
+void scene_lever_unset(char *text, size_t size);
 
 /* Puts the words into the scene and checks it. NULL, or what is wrong, a
    static string. */

@@ -72,6 +72,12 @@
   LAW_OPTIONS((s).law),                                                        \
   NUMBER("friction", &(s).law.friction, 0, OPTION_MANY, "",                    \
          "friction coefficient phi"),                                          \
+  {.name = "rolling", .type = OPTION_DOUBLE, .value = &(s).law.rolling,        \
+   .most = OPTION_MANY, .help = "coefficient of rolling resistance",           \
+   .parameter = true, .optional = true},                                       \
+  {.name = "lever", .type = OPTION_TEXT, .value = &(w).lever,                  \
+   OPTION_TABLE(scene_levers), .help = "lever arms of friction",               \
+   .parameter = true, .optional = true, .unset = scene_lever_unset},           \
   SIMILAR("vmin", &(s).law.vmin, DBL_MIN, "m/s",                               \
           "slip speed of full friction", 1, -1, 0),                            \
   SIMILAR("lmax", &(s).law.lmax, DBL_MIN, "m",                                 \
