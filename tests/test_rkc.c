@@ -956,6 +956,61 @@ static void test_constant(void) {
       }
 }
 
+/* A process that has the slow half of a state, given sums over both halves,
+   computes what the process that has all of it does. The sums come from a
+   record of that one's. */
+enum { HALF = 3, WHOLE = 2 * HALF, SUMS = 1000 };
+
+struct decay {
+  size_t n, sums;
+  double sum[SUMS];
+  const double *replay; /* NULL: all of the state is here */
+};
+
+static int decay_f(double t, const double y[], double dydt[], void *params) {
+  (void)t;
+  const struct decay *d = params;
+  for (size_t i = 0; i < d->n; i++)
+    dydt[i] = -pow(10, 1 + 0.5 * (double)i) * (y[i] - 1);
+  return GSL_SUCCESS;
+}
+
+static double decay_total(double part, void *params) {
+  struct decay *d = params;
+  const double all = d->replay ? d->replay[d->sums] : part;
+  CHECK(d->sums < SUMS && part <= all);
+  d->sum[d->sums++] = all;
+  return all;
+}
+
+static void test_shared(void) {
+  struct decay decay[2] = {{.n = WHOLE}, {.n = HALF, .replay = decay[0].sum}};
+  double weight[WHOLE], y[2][WHOLE] = {{0}}, f[2][WHOLE], error[2][WHOLE];
+  double direction[2][WHOLE], work[5 * WHOLE];
+  struct rkc_step step[2];
+  for (size_t i = 0; i < WHOLE; i++)
+    weight[i] = 1 + (double)i;
+  for (int k = 0; k < 2; k++) {
+    const struct rkc_problem p = {.dim = decay[k].n,
+                                  .rates = decay_f,
+                                  .params = &decay[k],
+                                  .total = decay_total,
+                                  .weight = weight,
+                                  .threads = 1};
+    CHECK(rkc_step_init(&step[k], direction[k]) == GSL_SUCCESS);
+    CHECK(decay_f(0, y[k], f[k], &decay[k]) == GSL_SUCCESS);
+    for (int n = 0; n < 10; n++)
+      CHECK(rkc_step_try(&step[k], &p, 0.05 * n, 0.05, y[k], error[k], f[k],
+                         f[k], work) == GSL_SUCCESS);
+  }
+  CHECK(decay[0].sums == decay[1].sums && decay[0].sums > 6);
+  CHECK(step[0].power.radius == step[1].power.radius);
+  CHECK(step[0].report.stages == step[1].report.stages);
+  CHECK(same(HALF, y[0], y[1]) && same(HALF, error[0], error[1]));
+  for (int k = 0; k < 2; k++)
+    rkc_step_free(&step[k]);
+}
+
 /* --- a bed, against merson -------------------------------------------------*/
 
 static double travel_limit(const double y[], const double dydt[],
@@ -1050,6 +1105,7 @@ int main(void) {
   test_too_stiff();
   test_repeated();
   test_constant();
+  test_shared();
   test_bed();
   return check_done();
 }

@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: GPL-2.0-or-later */
 /* The coefficients of the Runge-Kutta-Chebyshev method of order 2, by the
    number of stages: B. P. Sommeijer, L. F. Shampine, J. G. Verwer, J. Comput.
    Appl. Math. 88 (1998) 315. Not in the paper. With F_j = f(t + c_j h, Y_j),

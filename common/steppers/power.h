@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: GPL-2.0-or-later */
 /* The spectral radius of df/dy by power iteration over differences of f: it
    begins along f and goes on from the direction that it had. A fast mode that f
    has no part of and nothing couples to is not found. Not in the paper. Safe in
@@ -18,6 +18,8 @@ struct power_problem {
   double least;         /* h times radius below which it is of no interest */
   /* f(t, y) into f; y has room for what the system needs beside it. */
   int (*rates)(double t, double y[], double f[], void *params);
+  /* The sum over all processes that share the state, or NULL for one. */
+  double (*total)(double part, void *params);
   void *params;
   double *trial, *slope; /* scratch */
 };

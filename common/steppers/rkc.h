@@ -14,17 +14,11 @@
 #define RKC_H
 
 #include <gsl/gsl_odeiv2.h>
-#include "steppers/stage.h"
+#include "steppers/rkc_step.h"
 
 extern const gsl_odeiv2_step_type *const rkc;
 
 /* Findings of a stepper of this type so far. */
-struct rkc_report {
-  double spectral_radius;   /* estimate in use (1/s) */
-  size_t stages;            /* of the last step */
-  size_t most_stages;       /* of any step */
-  size_t power_evaluations; /* spent on the spectral radius */
-};
 struct rkc_report rkc_report(const gsl_odeiv2_step *s);
 
 /* A system's own stage function, which a step then calls instead of the

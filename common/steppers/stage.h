@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: GPL-2.0-or-later */
 /* A stage of a Runge-Kutta method together with the right-hand side that it
    needs. A system that can do both in one pass keeps the derivative, a few rows
    at a time, in the cache instead of writing it to memory and reading it
