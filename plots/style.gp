@@ -66,6 +66,7 @@ green = "#009E73"
 blue = "#0072B2"
 vermillion = "#D55E00"
 purple = "#CC79A7"
+wine = "#882255"
 grey = "#777777"
 
 line = 2.5              # width of a curve
@@ -113,11 +114,12 @@ variant_title(v) = v eq "rotation" ? "friction+rotation" : \
 
 # So do the methods; words after the first only tell runs of a method apart.
 # A method that is not in the key is drawn grey.
-method_key = " merson dopri5 rkf45  rkck   rk8pd  rkc    verlet msbdf  "
-method_number(m) = (strstrt(method_key, " ".word(m, 1)." ") + 6)/7 + 1
+method_key = " merson    dopri5    rkf45     rkck      rk8pd     ". \
+  "rkc       verlet    msbdf     multirate "
+method_number(m) = (strstrt(method_key, " ".word(m, 1)." ") + 9)/10 + 1
 method_colour(m) = word(grey." ".blue." ".vermillion." ".orange." ".sky. \
-  " ".purple." ".green." ".black." ".grey, method_number(m))
-method_point(m) = int(word("3 7 5 9 11 13 15 6 4", method_number(m)))
+  " ".purple." ".green." ".black." ".grey." ".wine, method_number(m))
+method_point(m) = int(word("3 7 5 9 11 13 15 6 4 14", method_number(m)))
 method_title(m) = method_number(m) == 1 ? m : word("Merson DOPRI5 RKF45 ". \
-  "RKCK RK8PD RKC Verlet MSBDF", method_number(m) - 1). \
+  "RKCK RK8PD RKC Verlet MSBDF multirate", method_number(m) - 1). \
   m[strlen(word(m, 1)) + 1:]

@@ -35,7 +35,7 @@ declare -A makes=(
   [stability-cut]='stability-cut.svg'
   [stability-vibration]='stability-vibration.svg'
   [stability-wrong-bed]='stability-wrong-bed.svg'
-  [bench]='bench.svg bench.md:21 scaling.svg scaling.md:2'
+  [bench]='bench.svg bench.md:24 scaling.svg scaling.md:2'
   [bench-peers]='peers.md:2'
 )
 # Targets that make no figure; bench-clean comes last.

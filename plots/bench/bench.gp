@@ -11,7 +11,7 @@ columns = "variant method seeds cpu_seconds cpu_least cpu_most difference ". \
   "interval"
 call "style.gp" "bench/bench.gp IN OUT" ARG2 ARG1
 
-methods = "rkc verlet merson rkf45 dopri5 rk8pd allpairs"
+methods = "multirate rkc verlet merson rkf45 dopri5 rk8pd allpairs"
 colour(m) = m eq "allpairs" ? grey : method_colour(m)
 point(m) = m eq "allpairs" ? 2 : method_point(m)
 # a later block begins with its names

@@ -6,13 +6,14 @@ BENCH := $(D)/bench
 # Methods by name: what settle is told. All have the same seeds, so that beds
 # are compared in pairs; but the paper's own way, every pair twice, which takes
 # minutes for the full model, has the first alone.
-BENCH_METHODS := allpairs merson dopri5 rkf45 rk8pd rkc verlet
+BENCH_METHODS := allpairs merson dopri5 rkf45 rk8pd rkc multirate verlet
 BENCH_allpairs := --pairs all --method merson
 BENCH_merson := --method merson
 BENCH_dopri5 := --method dopri5
 BENCH_rkf45 := --method rkf45
 BENCH_rk8pd := --method rk8pd
 BENCH_rkc := --method rkc
+BENCH_multirate := --method multirate
 BENCH_verlet := --method verlet --step 2.5e-5
 BENCH_SEEDS := $(if $(QUICK),1 2,1 2 3)
 bench_seeds = $(if $(filter allpairs,$(1)),$(firstword $(BENCH_SEEDS)),\

@@ -15,7 +15,8 @@ for variant; do
   awk -F '\t' -v OFS='\t' -v variant="$variant" '
     BEGIN {
       split("12.706 4.303 3.182 2.776 2.571 2.447 2.365 2.306 2.262", t, " ")
-      methods = split("allpairs merson dopri5 rkf45 rk8pd rkc verlet", name, " ")
+      methods = split("allpairs merson dopri5 rkf45 rk8pd rkc multirate verlet", \
+        name, " ")
     }
     FNR == 1 {
       file = FILENAME

@@ -29,11 +29,12 @@ trajectories: $(call precision_charts,$(TRAJECTORIES)) ## error of falling spher
 
 # Distance of runs from a sharp one over time, and of two sharp ones from each
 # other. Beds of settle, whose frames are interpolated between steps.
-HORIZON_METHODS := again merson rkc verlet # beside the reference
+HORIZON_METHODS := again merson rkc multirate verlet # beside the reference
 HORIZON_reference := --method rk8pd --control standard --tol 1e-10
 HORIZON_again := --method rk8pd --control standard --tol 1e-9
 HORIZON_merson := --method merson
 HORIZON_rkc := --method rkc
+HORIZON_multirate := --method multirate
 HORIZON_verlet := --method verlet --step 2.5e-5
 HORIZON_SIZE := --lmax 0.2 $(if $(QUICK),--count 32 --time 0.8 --frames 41,\
   --time 3 --frames 151)

@@ -14,12 +14,14 @@ letters = "· + − J G W X"
 titles = "'· settled' '+ denser bed' '− looser bed' 'J jitter' 'G gave up' ". \
   "'W through a wall' 'X blew up'"
 colours = "#CDE8DD ".orange." #F5DFA8 ".purple." ".sky." ".blue." ".vermillion
-panels = "basic-merson basic-merson-free basic-merson-short basic-rkc ". \
-  "basic-rkc-free basic-verlet rotation-merson rotation-rkc rotation-verlet"
-headings = "'Merson' 'Merson, no cap' 'Merson, l_{max} 0.1 m' 'RKC' ". \
-  "'RKC, no cap' 'Verlet' 'Merson' 'RKC' 'Verlet'"
-below(p) = p < 4 || p == 7 ? "{/:Italic δ} (m/s^2)" : p % 3 == 0 ? \
-  "step (s)" : "tolerance (m/s)"
+# four in a row, of which the first has three
+panels = "basic-merson basic-merson-free basic-merson-short - basic-rkc ". \
+  "basic-rkc-free basic-multirate basic-verlet rotation-merson rotation-rkc ". \
+  "rotation-multirate rotation-verlet"
+headings = "'Merson' '… no cap' '… {/:Italic l}_{max} 0.1 m' '' 'RKC' ". \
+  "'… no cap' 'multirate' 'Verlet' 'Merson' 'RKC' 'multirate' 'Verlet'"
+below(p) = p < 4 || p == 9 ? "{/:Italic δ} (m/s^2)" : p % 4 == 0 ? \
+  "step (s)" : "tol (m/s)"
 
 # the values of a column, in order; all of them or a panel's
 values(name, panel, order) = system(sprintf("awk -F'\\t' 'NR == 1 { for ". \
@@ -45,15 +47,15 @@ unset grid
 unset xtics
 unset ytics
 set yrange [0.5:words(kappas) + 0.5]
-across = 0.262
+across = 0.192
 high = 0.185
 set multiplot
-do for [p=1:9] {
+do for [p=1:12] {
   name = word(panels, p)
   settings = values("setting", name, "r")
-  i = (p - 1)%3
-  j = (p - 1)/3
-  left = 0.16 + i*(across + 0.014)
+  i = (p - 1)%4
+  j = (p - 1)/4
+  left = 0.16 + i*(across + 0.012)
   upper = 0.955 - j*(high + 0.105)
   set lmargin at screen left
   set rmargin at screen left + across
@@ -66,8 +68,8 @@ do for [p=1:9] {
     set label word(settings, k) at k,graph -0.03 right rotate by 50 \
       font ",16"
   }
-  set label below(p) at graph 0.5,-0.33 center
-  if (i == 1) {           # the panel that every row has
+  set label below(p) at graph 0.5,-0.3 center
+  if (i == 1) {           # a panel that every row has
     do for [k=1:words(kappas)] {
       set label word(kappas, k) at screen 0.15,first k right
     }

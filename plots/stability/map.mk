@@ -25,9 +25,11 @@ MAP_BASIC := \
   $(call map_runs,basic,merson,$(MAP_DELTAS),$(MAP_SEEDS),/travel-0) \
   $(call map_runs,basic,rkc,$(MAP_TOLERANCES),$(MAP_SEEDS)) \
   $(call map_runs,basic,rkc,$(MAP_TOLERANCES),$(MAP_SEEDS),/travel-0) \
+  $(call map_runs,basic,multirate,$(MAP_TOLERANCES),$(MAP_SEEDS)) \
   $(call map_runs,basic,verlet,$(MAP_STEPS),$(MAP_SEEDS)) $(MAP_SHORT)
 MAP_RUNS := $(sort $(MAP_BASIC) \
   $(call map_runs,rotation,rkc,$(MAP_TOLERANCES),$(MAP_SEEDS)) \
+  $(call map_runs,rotation,multirate,$(MAP_TOLERANCES),$(MAP_SEEDS)) \
   $(call map_runs,rotation,merson,$(MAP_COSTLY_DELTAS),1) \
   $(call map_runs,rotation,verlet,$(MAP_STEPS),$(MAP_SEEDS)))
 # several times what those take that end
