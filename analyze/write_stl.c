@@ -292,7 +292,7 @@ static void write_bodies(FILE *out, const struct shape *s,
     snprintf(text, sizeof text, "analyze export %s: %s", DEM_VERSION, note);
   else
     snprintf(text, sizeof text,
-             "analyze export %s: %zu facets a sphere, volume %.6f of a ball",
+             "analyze export %s: %zu facets per sphere, volume %.6f of a ball",
              DEM_VERSION, count, share);
   put_header(out, text,
              count * b->n + prism_facets(sides) * s->solid.bridges +
@@ -313,7 +313,7 @@ static void write_bodies(FILE *out, const struct shape *s,
   for (size_t k = 0; k < walls; k++)
     put_box(out, plate[k]);
   if (!o->quiet)
-    warn("%zu facets a sphere, with %.6f of the volume of a ball%s", count,
+    warn("%zu facets per sphere, with %.6f of the volume of a ball%s", count,
          share, o->equal_volume ? "" : " (--equal-volume: all of it)");
 }
 
