@@ -312,6 +312,28 @@ static void test_empty(gsl_rng *rng) {
   sample_free(&s);
 }
 
+/* What the list is kept by does not depend on which sphere comes first: a giant
+   there, or a grain. */
+static void test_first_sphere(void) {
+  struct scene scene = scene_default();
+  double way[2];
+  for (size_t first = 0; first < 2; first++) {
+    struct bed bed;
+    struct contact_list *l;
+    CHECK(bed_alloc(&bed, 101) == GSL_SUCCESS);
+    for (size_t i = 0; i < bed.n; i++) {
+      bed.r[i] = i == 100 * first ? 10 : 0.1;
+      bed.x[3 * i] = 0.3 * (double)i;
+    }
+    CHECK(contact_list_alloc(&l, &scene, &bed, 1) == GSL_SUCCESS);
+    way[first] = contact_list_longest_way(l);
+    contact_list_free(l);
+    bed_free(&bed);
+  }
+  CHECK_REL(way[1], way[0], 101 * DBL_EPSILON);
+  CHECK_REL(way[0], (10 + 100 * 0.1) / 101, 101 * DBL_EPSILON);
+}
+
 int main(void) {
   gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
   if (!rng)
@@ -323,6 +345,7 @@ int main(void) {
   }
   test_threads(rng);
   test_empty(rng);
+  test_first_sphere();
   gsl_rng_free(rng);
   return check_done();
 }

@@ -12,7 +12,7 @@
    on it. */
 static const double build_cost = 4;
 
-/* The widest skin, in radii. */
+/* The widest skin, in mean radii. */
 static const double most_skin = 2;
 
 /* From this number of spheres on, rows are put in the order of space, so that
@@ -155,7 +155,7 @@ int contact_list_alloc(struct contact_list **out, const struct scene *s,
   l->walls_count = s->walls_count;
   int status = reserve_rows(l, s->walls_count, threads);
   if (status == GSL_SUCCESS)
-    status = find_order(l, b, 2 * b->r[0] + s->law.lmax);
+    status = find_order(l, b, 2 * bed_mean(b, b->r) + s->law.lmax);
   if (status == GSL_SUCCESS) {
     l->moving = put_fixed_last(l, b);
     status = l->moving ? GSL_SUCCESS : GSL_ENOMEM;
@@ -188,6 +188,7 @@ int contact_list_alloc(struct contact_list **out, const struct scene *s,
   l->stride = l->has.rotation ? ROW_SPIN : ROW_PLAIN;
   for (int c = 0; c < 3; c++)
     l->gravity[c] = s->gravity[c];
+  l->typical = bed_mean(b, b->r);
   l->skin = 0.2 * smallest;
   l->age = SIZE_MAX;
   *out = l;
@@ -197,13 +198,13 @@ int contact_list_alloc(struct contact_list **out, const struct scene *s,
 /* Wider skins are rebuilt less often but hold more idle pairs; both costs are
    equal at the best skin. overhead: idle pairs' share of an evaluation. */
 static double skin_overhead(const struct contact_list *l) {
-  return 3 * l->skin / (2 * l->radius[0] + l->law.lmax + l->skin);
+  return 3 * l->skin / (2 * l->typical + l->law.lmax + l->skin);
 }
 
 static void tune_skin(struct contact_list *l) {
   const double idle = skin_overhead(l) * (double)l->age;
   const double factor = sqrt(build_cost / GSL_MAX(idle, 1e-3));
-  const double r = l->radius[0];
+  const double r = l->typical;
   l->skin *= GSL_MIN(GSL_MAX(factor, 0.7), 1.4);
   l->skin = GSL_MIN(GSL_MAX(l->skin, 0.02 * r), most_skin * r);
 }
@@ -414,7 +415,7 @@ int contact_list_update(struct contact_list *l, const double y[]) {
 }
 
 double contact_list_longest_way(const struct contact_list *l) {
-  return most_skin * l->radius[0] / 2;
+  return most_skin * l->typical / 2;
 }
 
 int contact_list_hold(struct contact_list *l, const double y[], double way) {
@@ -425,7 +426,7 @@ int contact_list_hold(struct contact_list *l, const double y[], double way) {
     return GSL_EBADFUNC;
   const double most = 0.5 * l->skin - way;
   const bool too_wide = skin_overhead(l) * (double)l->age > 8 * build_cost &&
-                        l->skin > 0.03 * l->radius[0];
+                        l->skin > 0.03 * l->typical;
   if (most < 0 || moved > most * most || too_wide)
     return build(l, y, way);
   return GSL_SUCCESS;

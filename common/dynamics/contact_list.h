@@ -89,7 +89,9 @@ struct contact_list {
      reference. */
   double *reference; /* 3 rows */
   double skin;       /* m */
-  size_t age; /* evaluations since it was built; SIZE_MAX: there is none */
+  double typical; /* the mean radius, which the skin is kept in proportion to,
+                     whichever sphere comes first (m) */
+  size_t age;     /* evaluations since it was built; SIZE_MAX: there is none */
   size_t builds;
 
   uint32_t *place; /* of contact_subset.c */
