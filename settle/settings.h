@@ -16,6 +16,7 @@ struct settings {
   struct integrate_options integrate;
   double lid;                   /* m, if given */
   double density;               /* kg/m^3, 0: by fill.mass */
+  double overlap, creep;        /* diameters, radii; if given */
   const char *sizes, *shares;   /* NULL: equal spheres; not given */
   struct similarity similarity; /* of the spheres to the paper's */
   double travel, time;

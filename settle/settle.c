@@ -23,6 +23,14 @@ static void no_lid(char *text, size_t size) {
   snprintf(text, size, "none");
 }
 
+static void by_kappa(char *text, size_t size) {
+  snprintf(text, size, "by --kappa and --f0");
+}
+
+static void by_vmin(char *text, size_t size) {
+  snprintf(text, size, "by --vmin");
+}
+
 /* As start.c chooses it. */
 static void method_unset(char *text, size_t size) {
   snprintf(text, size,
@@ -83,6 +91,14 @@ int main(int argc, char **argv) {
              "random displacement at the start"),
       SEED_OPTION(&s.fill.seed, "of the random start"),
       SCENE_OPTIONS(s.scene, s.words),
+      {.name = "overlap", .type = OPTION_DOUBLE, .value = &s.overlap,
+       .least = 1e-6, .most = 0.25, .unit = "diameters",
+       .unset = by_kappa, .help = "mean static overlap at the floor; kappa, f0 "
+                                  "and lmax follow from the load"},
+      {.name = "creep", .type = OPTION_DOUBLE, .value = &s.creep,
+       .least = 1e-9, .most = OPTION_MANY, .unit = "radii",
+       .unset = by_vmin, .help = "how far a contact with half of its friction "
+                                 "creeps by the end; vmin follows"},
       SIMILAR("time", &s.time, 0, "s", "end of the run", 0, 1, 0),
       INTEGRATION_OPTIONS(s.integrate, s.travel),
       {.name = "pairs", .type = OPTION_TEXT, .value = &s.pairs,

@@ -15,6 +15,7 @@
 #include "files/radius_keys.h"
 #include "program/size_options.h"
 #include "program/version.h"
+#include "soft.h"
 
 static void check_memory(int status) {
   if (status == GSL_ENOMEM)
@@ -354,5 +355,6 @@ void start_make(struct settings *s, struct option_spec *options, struct bed *b,
   check_fixed(b, name);
   check_walls(&s->scene, b, name);
   check_overlaps(b, name);
+  soft_take(s, options, b, header);
   write_header(s, options, b, header);
 }

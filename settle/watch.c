@@ -11,6 +11,7 @@
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_statistics.h>
 #include "model/bed_check.h"
+#include "model/softness.h"
 #include "program/run_watch.h"
 #include "steppers/stiffness.h"
 
@@ -20,6 +21,10 @@ static const double deep_overlap = 0.5;
 /* Soft walls let a centre pass and push it back, as long as there is energy for
    that. If a larger share than this came from nowhere, the energy was false. */
 static const double gross_share = 0.1;
+
+/* An error of the union by softness and creep that a fine tolerance can go
+   with: of the size of the error by the default tolerance. */
+static const double largest_balanced = 0.003;
 
 /* Power iterations, ITERATIONS every SAMPLE_EVERY evaluations, and a survey of
    the contacts every SURVEY_EVERY: below 1 % of the run each. */
@@ -38,6 +43,7 @@ struct watch {
   struct motion *motion;
   struct run_watch *run;
   struct stiff stiff;
+  double start;  /* time (s) */
   double weight; /* of what contacts store, in what cannot grow */
 
   double *places; /* of the last survey, 3n */
@@ -110,6 +116,47 @@ static void check_cut(struct watch *w) {
       "%.2g; --lmax %g would do (docs/stability.md, \"The cut at lmax\")",
       c->lmax, error, paper ? "m/s^2" : "m/s", tol,
       ceil(100 * (c->lmax + log(error / tol) / c->kappa)) / 100);
+}
+
+/* --- softness and creep ----------------------------------------------------*/
+
+/* Spheres that make a bed, and how much finer than by default a tolerance is of
+   somebody who asks for the last digit. */
+enum { BED_LEAST = 50, FINE = 10 };
+
+/* What the union of the bed is too large by, as docs/softness.md has it. */
+static double softness_of(const struct watch *w) {
+  return softness_error(w->set->scene.law.kappa * bed_mean(w->bed, w->bed->r));
+}
+
+static double creep_of(const struct watch *w, double time) {
+  const double creep = softness_creep(w->set->scene.law.vmin, time);
+  return scene_has_friction(&w->set->scene)
+             ? softness_creep_error(creep / bed_mean(w->bed, w->bed->r))
+             : 0;
+}
+
+/* A finer tolerance than the default takes time and betters nothing that can be
+   seen, as long as contacts are as soft, and creep as far, as by default. The
+   default itself is balanced, so it goes without a word. */
+static void check_balance(struct watch *w) {
+  const struct integrate_options *o = &w->set->integrate;
+  struct integrate_options usual = {.method = o->method, .control = o->control};
+  integrate_defaults(&usual);
+  usual.tol *= w->set->similarity.length /
+               (paper_control(w) ? w->set->similarity.squared_time
+                                 : w->set->similarity.time);
+  const double soft = softness_of(w);
+  const double creep = creep_of(w, w->set->time - w->bed->t);
+  if (o->step > 0 || w->bed->n < BED_LEAST || o->tol * FINE > usual.tol ||
+      vec3_norm(w->set->scene.gravity) == 0 || soft + creep < largest_balanced)
+    return;
+  run_watch_say(w->run,
+                "--tol %g is finer than softness and creep allow to see: they "
+                "make the union larger by some %.2g (kappa r = %.3g) and %.2g; "
+                "--overlap and --creep better that (docs/softness.md)",
+                o->tol, soft,
+                w->set->scene.law.kappa * bed_mean(w->bed, w->bed->r), creep);
 }
 
 /* --- stiffness -------------------------------------------------------------*/
@@ -285,6 +332,7 @@ int watch_alloc(struct watch **out, const struct settings *s,
     return GSL_ENOMEM;
   w->set = s;
   w->bed = b;
+  w->start = b->t;
   w->motion = m;
   w->smallest = gsl_stats_min(b->r, 1, b->n);
   const double e = s->scene.law.restitution;
@@ -309,6 +357,7 @@ int watch_alloc(struct watch **out, const struct settings *s,
   struct watch_finding f;
   if (status == GSL_SUCCESS) {
     check_cut(w);
+    check_balance(w);
     status = survey(w, integrate_state(m->integrator), &f);
   }
   if (status != GSL_SUCCESS) {
@@ -384,6 +433,8 @@ void watch_stats(const struct watch *w, FILE *out, double t_end,
   fprintf(out, "overlap_deepest\t%.4g\n", w->deepest);
   fprintf(out, "steps_with_deep_overlap\t%zu\n", w->deep_steps);
   fprintf(out, "cut_error\t%.3g\n", cut_error(w));
+  fprintf(out, "softness_error\t%.2g\n", softness_of(w));
+  fprintf(out, "creep_error\t%.2g\n", creep_of(w, t_end - w->start));
   fprintf(out, "surveys\t%zu\n", w->surveys);
   run_watch_stats(w->run, out, exit_status);
 }

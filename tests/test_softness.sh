@@ -1,0 +1,84 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# settle --overlap and --creep: beds that overlap as much as was asked for, the
+# header's numbers, and what is refused.
+. tests/harness.sh
+
+# Mean overlap of the contacts that touch the floor, in diameters
+floor_overlap() {
+  "$B/analyze" contacts --network --gap 0 "$1" | awk -F '\t' -v d="$2" '
+    NR > 1 && $4 == 1 && $13 > 0.9 && $10 <= 0 { s -= $10; n++ }
+    END { print n ? s / n / d : "nan" }'
+}
+header() { # FILE KEY
+  sed -n "s/^# $2=//p" "$1" | head -n 1
+}
+
+# The mean over 17 to 20 contacts is known to a sixth: their loads differ as an
+# exponential distribution does, so ln N by 1.28, and its mean is 1.47.
+for options in '--seed 1 --overlap 0.03' '--seed 2 --overlap 0.005 --friction 0.5' \
+  '--seed 3 --overlap 0.01 --model basic --restitution 0.8' \
+  '--seed 4 --overlap 0.02 --radius 0.00025 --density 2500' \
+  '--seed 5 --overlap 0.01 --base 1.5,0.8 --count 120'; do
+  # shellcheck disable=SC2086
+  "$B/settle" --quiet $options >"$T/bed" 2>"$T/err"
+  said=$options
+  check 'without a word' test $? = 0 -a ! -s "$T/err"
+  asked=$(sed 's/.*--overlap \([0-9.]*\).*/\1/' <<<"$options")
+  r=$(header "$T/bed" radius)
+  got=$(floor_overlap "$T/bed" "$(awk -v r="$r" 'BEGIN { print 2 * r }')")
+  check "overlap $got for $asked" awk -v a="$asked" -v g="$got" \
+    'BEGIN { exit !(g / a > 0.83 && g / a < 1.2) }'
+done
+said=
+
+# kappa by the overlap alone, F0 by the load, lmax by kappa unless it is given
+"$B/settle" --overlap 0.02 --time 0 >"$T/a"
+"$B/settle" --overlap 0.01 --count 400 --time 0 >"$T/b"
+"$B/settle" --overlap 0.01 --lmax 0.05 --time 0 >"$T/c"
+ratio() { # KEY A B
+  awk -v a="$(header "$2" "$1")" -v b="$(header "$3" "$1")" \
+    'BEGIN { printf "%.12g", b / a }'
+}
+check 'kappa' test "$(ratio kappa "$T/a" "$T/b")" = 2
+check 'F0' test "$(ratio f0 "$T/a" "$T/b")" = 2
+check 'lmax' test "$(ratio lmax "$T/a" "$T/b")" = 0.5
+check 'lmax as given' test "$(header "$T/c" lmax)" = 0.05
+check 'no key of its own' test -z "$(header "$T/a" overlap)"
+# of a bed that has been made, by the base in its header
+"$B/settle" --overlap 0.01 --scene "$T/a" --time 0 --quiet >"$T/d"
+check 'of a scene' test "$(ratio kappa "$T/a" "$T/d")" = 2
+
+"$B/settle" --creep 0.05 --time 2 --count 4 >"$T/a" 2>"$T/err"
+check 'creep: 2 * 0.05 * 0.1 / 2' test "$(ratio vmin "$T/a" \
+  <(echo '# vmin=0.005'))" = 1
+check 'creep: the cost' grep -q 'vmin is 0.005 m/s.* 2 times as stiff' "$T/err"
+"$B/settle" --creep 5 --time 2 --count 4 >"$T/a" 2>"$T/err"
+check 'creep: nothing is said where it costs nothing' test ! -s "$T/err"
+
+refuse() { # PATTERN OPTION...
+  "$B/settle" --quiet "${@:2}" >"$T/out" 2>"$T/err"
+  check "${*:2}: exit status" test $? = 2
+  check "${*:2}: one line" grep -Eq -e "$1" "$T/err"
+}
+refuse '--kappa: follows from --overlap' --overlap 0.01 --kappa 300
+refuse '--f0: follows from --overlap' --overlap 0.01 --f0 30
+refuse '--vmin: follows from --creep' --creep 0.1 --vmin 0.001
+refuse 'gravity downwards' --overlap 0.01 --gravity 0
+refuse 'gravity downwards' --overlap 0.01 --gravity 1,0,-9
+refuse 'beside other walls' --overlap 0.01 --wall 0,0,0,0,0,-1
+refuse 'without friction' --creep 0.1 --model basic
+refuse 'without friction' --creep 0.1 --friction 0
+refuse '--time above 0' --creep 0.1 --time 0
+refuse 'overlap' --overlap 0
+
+# A tolerance finer than softness lets see is said once; as fine contacts are not
+"$B/settle" --quiet --tol 1e-5 --time 0.05 >"$T/out" 2>"$T/err"
+check 'balance: said' grep -q 'larger by some 0.093 (kappa r = 15)' "$T/err"
+check 'balance: once' test "$(wc -l <"$T/err")" = 1
+"$B/settle" --quiet --time 0.05 >"$T/out" 2>"$T/err"
+check 'balance: the default is' test ! -s "$T/err"
+"$B/settle" --quiet --tol 1e-5 --time 0.05 --overlap 0.001 --model basic \
+  --lmax 0.003 >"$T/out" 2>"$T/err"
+check 'balance: hard contacts are' test ! -s "$T/err"
+check_done
