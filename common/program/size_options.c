@@ -29,15 +29,18 @@ struct columns {
   double *size, *share;
 };
 
+static double *lengthened(double *x, size_t n) {
+  double *more = realloc(x, n * sizeof *x);
+  if (!more)
+    die(EXIT_IO, "out of memory");
+  return more;
+}
+
 static void append(struct columns *c, double size, double share) {
   if (c->count == c->room) {
     c->room = 2 * c->room + 16;
-    double *more[2] = {realloc(c->size, c->room * sizeof(double)),
-                       realloc(c->share, c->room * sizeof(double))};
-    if (!more[0] || !more[1])
-      die(EXIT_IO, "out of memory");
-    c->size = more[0];
-    c->share = more[1];
+    c->size = lengthened(c->size, c->room);
+    c->share = lengthened(c->share, c->room);
   }
   c->size[c->count] = size;
   c->share[c->count++] = share;
