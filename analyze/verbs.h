@@ -10,6 +10,7 @@
   VERB(fraction, "share of boxes that the spheres fill, the default")          \
   VERB(profile, "solid fraction along an axis, from a wall or of shells")      \
   VERB(contacts, "coordination, overlaps, forces, weight on walls, fabric")    \
+  VERB(mixture, "sizes class by class: fraction, contacts, segregation")        \
   VERB(rest, "energies, unbalanced force, largest speed")                      \
   VERB(gr, "pair correlation")                                                 \
   VERB(order, "bond order q4 and q6: fcc, hcp, bcc or none")                        \

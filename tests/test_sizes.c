@@ -5,7 +5,10 @@
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
+#include <gsl/gsl_statistics.h>
 #include "check.h"
+#include "geometry/vec3.h"
+#include "model/fill.h"
 #include "model/sizes.h"
 
 enum { N = 20000 };
@@ -180,6 +183,47 @@ static void test_masses(void) {
   CHECK(m[0] == 2 && m[1] == 16 && m[2] == 0.25);
 }
 
+/* A start of many sizes: apart, in the box, and not in a tower: the places of
+   small spheres are shared. */
+static void test_fill(void) {
+  enum { SPHERES = 600 };
+  const double radius[] = {0.1, 0.02}, share[] = {0.1, 0.9};
+  struct sizes *s[3];
+  CHECK(sizes_alloc_table(&s[0], SIZES_MIX, false, 2, radius, share) ==
+        GSL_SUCCESS);
+  CHECK(sizes_alloc(&s[1], SIZES_LOGNORMAL, false, 0.05, 0.5) == GSL_SUCCESS);
+  CHECK(sizes_alloc(&s[2], SIZES_UNIFORM, false, 0.05, 0.1) == GSL_SUCCESS);
+  for (size_t k = 0; k < 3; k++) {
+    struct bed b;
+    CHECK(bed_alloc(&b, SPHERES) == GSL_SUCCESS);
+    CHECK(sizes_draw(s[k], 1, SPHERES, b.r) == GSL_SUCCESS);
+    const double largest = gsl_stats_max(b.r, 1, b.n);
+    const struct fill f = {.base = {5 * largest, 7.5 * largest},
+                           .drop = 1,
+                           .jitter = 0.25, /* more presses on walls */
+                           .seed = 3};
+    CHECK(fill_grid_of(&f, &b) == GSL_SUCCESS);
+    double top = 0;
+    for (size_t i = 0; i < SPHERES; i++) {
+      const double *x = b.x + 3 * i;
+      CHECK(x[0] >= b.r[i] && x[0] <= f.base[0] - b.r[i]);
+      CHECK(x[1] >= b.r[i] && x[1] <= f.base[1] - b.r[i]);
+      CHECK(x[2] >= f.drop + b.r[i]);
+      top = GSL_MAX(top, x[2] + b.r[i]);
+      for (size_t j = 0; j < i; j++) {
+        double u[3];
+        vec3_sub(x, b.x + 3 * j, u);
+        CHECK(vec3_norm(u) > b.r[i] + b.r[j]);
+      }
+    }
+    /* 60 large ones and 540 of which 125 share a place: 65 places, 6 a layer */
+    if (k == 0)
+      CHECK(top <= f.drop + 11 * 2.5 * largest);
+    bed_free(&b);
+    sizes_free(s[k]);
+  }
+}
+
 static void refused(enum sizes_kind kind, double a, double b) {
   struct sizes *s;
   CHECK(sizes_alloc(&s, kind, false, a, b) == GSL_SUCCESS);
@@ -230,6 +274,7 @@ int main(void) {
   test_units();
   test_seeds();
   test_masses();
+  test_fill();
   test_wrong();
   return check_done();
 }

@@ -20,6 +20,31 @@ static bool count_across(const struct fill *f, double spacing,
   return true;
 }
 
+/* Parts of a place that a sphere needs one of, along each side. */
+enum { MOST_PARTS = 100 };
+
+static size_t parts_of(double largest, double radius) {
+  const double fit = floor(largest / radius * (1 + 1e-12));
+  return (size_t)fmin(fit, MOST_PARTS);
+}
+
+/* The place of the grid that spheres of one size are being put into. */
+struct place {
+  size_t number, used, room; /* parts used, of so many */
+};
+
+/* The number of the place that has the next part, and which it is. */
+static size_t take_part(struct place *p, size_t m, size_t *places,
+                        size_t part[3]) {
+  if (p->used == p->room)
+    *p = (struct place){.number = (*places)++, .room = m * m * m};
+  part[0] = p->used % m;
+  part[1] = p->used / m % m;
+  part[2] = p->used / (m * m);
+  p->used++;
+  return p->number;
+}
+
 int fill_grid_of(const struct fill *f, struct bed *b) {
   const double radius = gsl_stats_max(b->r, 1, b->n), spacing = 2.5 * radius;
   size_t across[2];
@@ -30,14 +55,23 @@ int fill_grid_of(const struct fill *f, struct bed *b) {
     return GSL_ENOMEM;
   gsl_rng_set(rng, (unsigned long)f->seed);
   const size_t layer = across[0] * across[1];
+  struct place open[MOST_PARTS + 1] = {{0}};
+  size_t places = 0;
   for (size_t i = 0; i < b->n; i++) {
-    const size_t in_layer = i % layer;
+    const size_t m = parts_of(radius, b->r[i]);
+    size_t part[3];
+    const size_t at = take_part(&open[m], m, &places, part);
+    const size_t in_layer = at % layer;
+    const double own = (double)m;
     double *x = b->x + 3 * i;
-    x[0] = ((double)(in_layer % across[0]) + 0.5) * spacing;
-    x[1] = ((double)(in_layer / across[0]) + 0.5) * spacing;
-    x[2] = f->drop + ((double)(i / layer) + 0.5) * spacing;
+    x[0] = ((double)(in_layer % across[0]) + ((double)part[0] + 0.5) / own) *
+           spacing;
+    x[1] = ((double)(in_layer / across[0]) + ((double)part[1] + 0.5) / own) *
+           spacing;
+    x[2] = f->drop +
+           ((double)(at / layer) + ((double)part[2] + 0.5) / own) * spacing;
     for (int k = 0; k < 3; k++)
-      x[k] += f->jitter * radius * gsl_rng_uniform(rng);
+      x[k] += f->jitter * radius / own * gsl_rng_uniform(rng);
   }
   gsl_rng_free(rng);
   return GSL_SUCCESS;

@@ -22,8 +22,11 @@ struct fill {
    for one sphere, GSL_ENOMEM. */
 int fill_grid(const struct fill *f, struct bed *b);
 
-/* The same of spheres that have their radii and masses: r is the largest
-   radius. Of the fill, count, radius and mass are not looked at. */
+/* The same of spheres that have their radii and masses: r is the largest radius.
+   Of spheres that are k times smaller, k whole, k^3 share a place of the grid,
+   in one of their own, and are moved by as much less; so the layers are not
+   full of holes, and no two spheres overlap. Of the fill, count, radius and mass
+   are not looked at. */
 int fill_grid_of(const struct fill *f, struct bed *b);
 
 #endif
