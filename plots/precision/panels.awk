@@ -3,7 +3,7 @@
 #   awk -f panels.awk SETTLING > PANELS
 # panel    single (rms of single beds with friction and rotation), mean (of the
 #          same beds), plain (mean without friction)
-# side     left: rkc and Verlet, x is the CPU time; right: the embedded methods,
+# side     left: multirate, rkc and Verlet, x is the CPU time; right: the embedded methods,
 #          whose cost hardly depends on the tolerance, which is x
 # kind     point: y with its 95 % interval, low to high; limit: what the error is
 #          below, since its interval holds zero; failed
@@ -25,7 +25,7 @@ function put(panel, y, interval,  kind) {
 {
   variant = get("variant")
   if (get("status") == "reference") spread[variant] = get("spread")
-  embedded = get("method") !~ /^(rkc|verlet)$/
+  embedded = get("method") !~ /^(multirate|rkc|verlet)$/
   if (embedded && get("cpu_seconds") + 0 > 0) {
     c = get("cpu_seconds") + 0
     if (!(variant in least) || c < least[variant]) least[variant] = c
@@ -41,7 +41,7 @@ function put(panel, y, interval,  kind) {
   side = embedded ? "right" : "left"
   setting = get("tol") == "-" ? get("step") : get("tol")
   x = embedded ? setting : get("cpu_seconds")
-  is_default = get("method") == "rkc" && setting == "5e-4"
+  is_default = get("method") == "multirate" && setting == "2e-3"
   d = get("difference")
   if (d < 0) d = -d
   if (variant == "rotation") {

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Error of the fraction of settled beds: of single beds with friction and
-# rotation, of their mean, and of the mean without friction. Left: rkc and Verlet
-# against CPU time, each marker with its tolerance or step; right: the embedded
-# methods against their tolerance. An arrow is the upper limit of an error that
+# rotation, of their mean, and of the mean without friction. Left: multirate, rkc
+# and Verlet against CPU time, each marker with its tolerance or step; right: the
+# embedded methods against their tolerance. An arrow is the upper limit of an error that
 # the seeds cannot tell from zero; runs that failed are crosses at the top. The
 # default of settle has a ring, the spread of seeds is a dashed line.
 #   gnuplot -c plots/precision/settling.gp IN OUT
 # IN: rows by panels.awk.
 set loadpath system("dirname '".ARG0."'")."/.."
-height = 1340
+height = 1370
 columns = "panel side method setting seeds x y low high kind default"
 call "style.gp" "precision/settling.gp IN OUT" ARG2 ARG1
 
@@ -34,7 +34,7 @@ set xtics 10
 panels = "single mean plain"
 headings = "'single beds, friction and rotation' ". \
   "'mean, friction and rotation' 'mean, no friction'"
-high = 0.26
+high = 0.254
 unset key
 set multiplot
 do for [p=1:3] {
@@ -57,9 +57,9 @@ do for [p=1:3] {
     label = left ? word(headings, p) : header(ARG1, "cost_".panel)
     place = left ? 0.07 : 0.93
     set label 1 label at graph 0.03,place left
-    methods = left ? "rkc verlet" : "merson dopri5 rkf45"
+    methods = left ? "multirate rkc verlet" : "merson dopri5 rkf45"
     if (p == 3 && !left) {
-      set key at screen 0.5,0.005 center bottom vertical maxrows 4 width -1
+      set key at screen 0.5,0.005 center bottom vertical maxrows 5 width -1
     }
     plot for [m in methods] ARG1 using (is(m, "limit") ? x(m) : NaN):"y":(0): \
         (-0.7*column("y")) with vectors filled head lw 1.5*thin \
@@ -73,10 +73,10 @@ do for [p=1:3] {
       for [m in methods] ARG1 using (is(m, "failed") ? x(m) : NaN):(top/2) \
         with points pt 2 ps 1.6*symbol lw line lc rgb method_colour(m) \
         notitle, \
-      for [m in left && p == 1 ? "verlet" : ""] ARG1 using (is(m, "point") ? \
+      for [m in left && p == 1 ? "rkc verlet" : ""] ARG1 using (is(m, "point") ? \
         x(m) : NaN):(above(column("y"))):(strcol("setting")) with labels left \
         offset 0.8,0.6 font ",16" tc rgb method_colour(m) notitle, \
-      for [m in left && p == 1 ? "rkc" : ""] ARG1 using (is(m, "point") ? \
+      for [m in left && p == 1 ? "multirate" : ""] ARG1 using (is(m, "point") ? \
         x(m) : NaN):(above(column("y"))):(strcol("setting")) with labels right \
         offset -1.2,-0.5 font ",16" \
         tc rgb method_colour(m) notitle, \
@@ -85,14 +85,13 @@ do for [p=1:3] {
         (strcol("setting")) with labels left rotate by 90 offset 0,0.4 \
         font ",16" tc rgb method_colour(m) notitle, \
       for [m in left && p == 3 ? "rkc" : ""] ARG1 using \
-        ((is(m, "point") || is(m, "limit")) && column("default") == 0 ? \
-        x(m) : NaN):(0.25*column("y")):(strcol("setting")) with labels right \
+        (is(m, "point") || is(m, "limit") ? x(m) : NaN):(0.25*column("y")):(strcol("setting")) with labels right \
         rotate by 90 font ",16" tc rgb method_colour(m) notitle, \
-      for [m in left ? "rkc" : ""] ARG1 using (column("default") == 1 && \
+      for [m in left ? "multirate" : ""] ARG1 using (column("default") == 1 && \
         (is(m, "point") || is(m, "limit")) ? x(m) : NaN): \
         (above(column("y"))) with points pt 6 ps 2.6*symbol lw line \
         lc rgb black notitle, \
-      for [m in "rkc verlet merson dopri5 rkf45"] keyentry with linespoints \
+      for [m in "multirate rkc verlet merson dopri5 rkf45"] keyentry with linespoints \
         lw line pt method_point(m) ps symbol lc rgb method_colour(m) \
         title method_title(m).", ".header(ARG1, "seeds_".m), \
       keyentry with points pt 6 ps 2.6*symbol lw line lc rgb black \

@@ -10,11 +10,14 @@ BED_RKC := $(if $(QUICK),2,20)
 BED_VERLET := $(if $(QUICK),2,8)
 BED_BASIC := $(if $(QUICK),2,40)
 EMBEDDED_TOLERANCES := $(if $(QUICK),0.1,10 1 0.1)
-RKC_TOLERANCES := $(if $(QUICK),0.1 5e-4,1 0.1 0.01 1e-3 5e-4 1e-4)
+RKC_TOLERANCES := $(if $(QUICK),0.1 5e-4,1 0.1 0.01 5e-4 1e-4)
+MULTIRATE_TOLERANCES := $(if $(QUICK),2e-3,0.05 0.01 2e-3 5e-4)
 VERLET_STEPS := $(if $(QUICK),1e-3 2.5e-5,1e-3 4e-4 2e-4 1e-4 5e-5 2.5e-5)
 
 # Tolerances of a method in order, so that charts join them.
 SETTLING_FULL := \
+  $(foreach t,$(MULTIRATE_TOLERANCES),\
+    $(call bed_runs,$(FULL)/method-multirate/tol-$(t),3,$(BED_RKC))) \
   $(foreach t,$(RKC_TOLERANCES),\
     $(call bed_runs,$(FULL)/method-rkc/tol-$(t),3,$(BED_RKC))) \
   $(foreach h,$(VERLET_STEPS),\
@@ -26,6 +29,8 @@ SETTLING_PLAIN := \
   $(foreach m,merson dopri5 rkf45,$(foreach t,$(EMBEDDED_TOLERANCES),\
     $(call bed_runs,$(PLAIN)/method-$(m)/tol-$(t),3,$(BED_BASIC)))) \
   $(call bed_runs,$(PLAIN)/method-merson/tol-0.01,3,$(BED_BASIC)) \
+  $(foreach t,$(MULTIRATE_TOLERANCES),\
+    $(call bed_runs,$(PLAIN)/method-multirate/tol-$(t),3,$(BED_BASIC))) \
   $(foreach t,$(RKC_TOLERANCES),\
     $(call bed_runs,$(PLAIN)/method-rkc/tol-$(t),3,$(BED_BASIC))) \
   $(foreach h,$(VERLET_STEPS),\

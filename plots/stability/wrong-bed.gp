@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The fraction of beds with friction less that of a sharp run of the same seed:
 # against a fixed step, above the share of the contacts' force whose slip that
-# step makes oscillate; and against the tolerance of adaptive methods, rkc and
-# the embedded ones, whose units differ.
+# step makes oscillate; and against the tolerance of adaptive methods, left rkc
+# and multirate, right the embedded ones, whose units differ.
 #   gnuplot -c plots/stability/wrong-bed.gp IN SLIP OUT
 # IN: blocks by ../precision/settling.awk; SLIP: columns step and share by
 # slip.awk.
@@ -13,7 +13,7 @@ call "style.gp" "stability/wrong-bed.gp IN SLIP OUT" ARG3 ARG1 ARG2
 
 stats ARG1 using (blocks = column(-2) + 1) nooutput
 array method[blocks]
-fixed = rkc = embedded = seen = ""
+fixed = chebyshev = embedded = seen = ""
 do for [b=1:blocks] {
   stats ARG1 index b-1 using (method[b] = word(strcol("method"), 1), \
     step = strcol("step"), 0) nooutput
@@ -22,7 +22,9 @@ do for [b=1:blocks] {
   if (step ne "-") {
     fixed = fixed.number
   } else {
-    if (method[b] eq "rkc") { rkc = rkc.number } else {
+    if (method[b] eq "rkc" || method[b] eq "multirate") {
+      chebyshev = chebyshev.number
+    } else {
       embedded = embedded.number
     }
   }
@@ -85,15 +87,15 @@ set format y "%h"
 set xtics 10
 set ylabel "union less that of\na sharp run" offset -0.5,0
 do for [p=1:2] {
-  list = p == 1 ? rkc : embedded
+  list = p == 1 ? chebyshev : embedded
   set lmargin at screen p == 1 ? 0.2 : 0.63
   set rmargin at screen p == 1 ? 0.60 : 0.965
   set xrange [p == 1 ? 5e-5 : 5e-3:p == 1 ? 2 : 20]
-  set xlabel p == 1 ? "tolerance, RKC (m/s)" : "{/:Italic δ}, embedded (m/s^2)"
+  set xlabel p == 1 ? "tolerance (m/s)" : "{/:Italic δ} (m/s^2)"
   if (p == 2) {
     unset ylabel
     set format y ""
-    set key on at screen 0.5,0.005 center bottom vertical maxrows 3
+    set key on at screen 0.5,0.005 center bottom vertical maxrows 3 width -1
   }
   plot for [i=1:words(list)] ARG1 index nth(list, i)-1 using \
       (good("tol")*beside(i, words(list))):(difference(0)):(ci(0)) \
@@ -103,7 +105,7 @@ do for [p=1:2] {
       (good("tol")*beside(i, words(list))):(difference(0)) with linespoints \
       lw line pt method_point(method[nth(list, i)]) ps symbol \
       lc rgb method_colour(method[nth(list, i)]) notitle, \
-    for [m in "merson dopri5 rkf45 rkck rk8pd rkc verlet"] keyentry \
+    for [m in "merson dopri5 rkf45 rkck rk8pd rkc multirate verlet"] keyentry \
       with linespoints lw line pt method_point(m) ps symbol \
       lc rgb method_colour(m) \
       title strstrt(seen." ", " ".m." ") > 0 ? method_title(m) : ""
