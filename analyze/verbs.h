@@ -14,6 +14,7 @@
   VERB(rest, "energies, unbalanced force, largest speed")                      \
   VERB(gr, "pair correlation")                                                 \
   VERB(order, "bond order q4 and q6: fcc, hcp, bcc or none")                        \
+  VERB(hard, "the fraction with hard contacts, from beds of soft ones")         \
   VERB(radius, "the geometry's radius, and the bed with another one")          \
   VERB(export, "the bed for other programs, or as voxels")                     \
   VERB(draw, "a picture of one frame, PNG or SVG")                             \

@@ -81,4 +81,53 @@ check 'balance: the default is' test ! -s "$T/err"
 "$B/settle" --quiet --tol 1e-5 --time 0.05 --overlap 0.001 --model basic \
   --lmax 0.003 >"$T/out" 2>"$T/err"
 check 'balance: hard contacts are' test ! -s "$T/err"
+
+# The limit of hard contacts, of beds with 20, 19 and 18.5 spheres in the box:
+# 18 + 60/(kappa r)
+pearls() { # KAPPA COUNT [KEY=VALUE]
+  awk -v kappa="$1" -v n="$2" -v key="${3:-friction=0.2}" 'BEGIN {
+    print "# format=bed-1\n# kappa=" kappa "\n# radius=0.1\n# wall=0 0 0 0 0 -1"
+    print "# " key "\nx\ty\tz\tr"
+    for (i = 0; i < n; i++) # the last one may be cut in half
+      printf("%.17g\t%.17g\t%.17g\t0.1\n", (i + 0.5 >= n ? 1 : 0.1 + 0.2 * (i % 4)),
+        0.1 + 0.2 * (int(i / 4) % 4), 0.1 + 0.2 * int(i / 16))
+    print "# status=ok" }'
+}
+pearls 300 20 >"$T/30"
+pearls 600 19 >"$T/60"
+pearls 1200 18.5 >"$T/120"
+hard() {
+  "$B/analyze" hard --box 0,1,0,1,0,1 "$@" >"$T/out" 2>"$T/err"
+}
+column() {
+  awk -F '\t' -v want="$1" 'NR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
+    { print $at[want] }' "$T/out"
+}
+near() { # NAME GOT WANT TOLERANCE
+  check "$1: $2, expected $3" awk -v g="$2" -v w="$3" -v t="$4" \
+    'BEGIN { d = g - w; exit !(g != "nan" && d <= t && -d <= t) }'
+}
+ball=$(awk 'BEGIN { printf "%.17g", 4 / 3 * atan2(0, -1) * 0.001 }')
+of() { awk -v n="$1" -v v="$ball" 'BEGIN { printf "%.17g", n * v }'; }
+hard "$T/30" "$T/60" "$T/120"
+near 'hard: the limit' "$(column union)" "$(of 18)" 1e-12
+near 'hard: the slope' "$(column slope)" "$(of 60)" 1e-9
+near 'hard: kappa r' "$(column softest)/$(column hardest)" 30/120 0
+near 'hard: no deviation' "$(column high)" "$(of 18)" 1e-9
+check 'hard: one row, not a word' test "$(wc -l <"$T/out")" = 2 -a ! -s "$T/err"
+hard "$T/30" "$T/60" --deviation 0.01
+near 'hard: two beds' "$(column union)" "$(of 18)" 1e-12
+near 'hard: their interval' "$(column high)" \
+  "$(awk -v u="$(of 18)" 'BEGIN { print u + 1.959964 * sqrt(5) * 0.01 }')" 1e-6
+pearls 600 19 friction=0.5 >"$T/other"
+hard "$T/30" "$T/other"
+check 'hard: other beds' grep -q 'differ in friction' "$T/err"
+pearls 150 22 >"$T/15"
+hard "$T/15" "$T/60"
+check 'hard: too soft' grep -q 'from 30 on' "$T/err"
+for files in "$T/30" "$T/30 $T/30"; do
+  # shellcheck disable=SC2086
+  hard $files
+  check "hard: refused" test $? != 0 -a "$(wc -l <"$T/err")" = 1
+done
 check_done
