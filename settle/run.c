@@ -2,6 +2,7 @@
 #include "run.h"
 
 #include <assert.h>
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <gsl/gsl_errno.h>
@@ -10,12 +11,14 @@
 #include "program/files.h"
 #include "program/litter.h"
 #include "program/integration.h"
+#include "program/progress.h"
 #include "model/rest.h"
 #include "dynamics/motion.h"
 #include "watch.h"
 
 struct run {
   const struct settings *set;
+  const struct setup *setup;
   const struct bed_header *header;
   struct bed *bed;
   struct motion *motion;
@@ -24,24 +27,38 @@ struct run {
   double start; /* time */
   struct rest_watch rest;
   size_t frames; /* written */
-  struct output_file log;
+  struct output_file output, log, stats, checkpoint;
+  /* at the last checkpoint */
+  struct output_mark output_mark, log_mark, stats_mark;
+  double last_checkpoint; /* on the wall's clock (s) */
+  FILE *out;              /* for frames */
   bool failed;
   char mark[160]; /* of the bed, at its end */
 };
+
+/* What is done is not lost with what is still to be done. */
+static void flush_frames(struct run *r) {
+  if (fflush(r->out) == 0 && !ferror(r->out))
+    return;
+  const char *checkpoint = r->output_mark.partial ? r->set->checkpoint : NULL;
+  if (r->set->output)
+    die(EXIT_IO, "%s: %s%s%s", r->set->output, strerror(errno),
+        checkpoint ? "; settle goes on with --resume " : "",
+        checkpoint ? checkpoint : "");
+  finish_output(); /* does not return */
+}
 
 static void write_frame(struct run *r, const double *y, double t) {
   static const struct bed_header none = {0};
   dynamics_unpack(r->motion->dynamics, y, r->bed);
   r->bed->t = t;
   if (r->frames)
-    bed_write_gap(stdout);
-  bed_write_frame(stdout, r->frames ? &none : r->header, r->bed,
+    bed_write_gap(r->out);
+  bed_write_frame(r->out, r->frames ? &none : r->header, r->bed,
                   dynamics_stride(r->motion->dynamics) == ROW_SPIN);
   r->frames++;
   assert(r->frames <= r->set->frames);
-  /* what is done is not lost with what is still to be done */
-  if (fflush(stdout) != 0 || ferror(stdout))
-    finish_output(); /* does not return */
+  flush_frames(r);
 }
 
 static double frame_time(const struct run *r, size_t k) {
@@ -87,8 +104,7 @@ static void write_log(struct run *r) {
                            dynamics_potential(r->motion->dynamics, y)};
   FILE *log = r->log.stream;
   numbers_write(log, '\t', 2, step);
-  fprintf(log, "\t%zu\t%zu\t",
-          integrate_counts(r->motion->integrator).accepted,
+  fprintf(log, "\t%zu\t%zu\t", integrate_counts(r->motion->integrator).accepted,
           watch_evaluations(r->watch));
   numbers_write(log, '\t', 2, energy);
   fputc('\n', log);
@@ -120,8 +136,8 @@ static void say_not_at_rest(const struct run *r, double t) {
          "J on average, expected less for %g s",
          t, GSL_MIN(w->since, t), w->kinetic_limit, w->quiet);
   else if (t - w->start < w->settling)
-    warn("not at rest at t=%g: seen for %.2g s, expected %g s", t,
-         t - w->start, w->settling);
+    warn("not at rest at t=%g: seen for %.2g s, expected %g s", t, t - w->start,
+         w->settling);
   else
     warn("not at rest at t=%g: in %g s the bed lost %.2g %% of the energy of "
          "its height, expected below %g %%",
@@ -150,6 +166,78 @@ static bool step(struct run *r) {
   return true;
 }
 
+/* --- checkpoints -----------------------------------------------------------*/
+
+static void store_run(void *run, struct store *s) {
+  struct run *r = run;
+  motion_store(r->motion, s);
+  watch_store(r->watch, s);
+  store_part(s, "run");
+  store_double(s, &r->start);
+  store_size(s, &r->frames);
+  store_plain(s, &r->rest, sizeof r->rest);
+  store_flag(s, &r->failed);
+  store_bytes(s, r->mark, sizeof r->mark);
+}
+
+/* Where the files are comes first: they are opened before the rest. */
+static void store_marks(struct run *r, struct store *s) {
+  output_mark_store(&r->output_mark, s);
+  if (r->set->log)
+    output_mark_store(&r->log_mark, s);
+  if (r->set->stats)
+    output_mark_store(&r->stats_mark, s);
+}
+
+static void store_all(void *run, struct store *s) {
+  store_marks(run, s);
+  store_run(run, s);
+}
+
+/* Writes the state as it is; false with errno. */
+static bool write_checkpoint(struct run *r) {
+  const struct settings *s = r->set;
+  const bool done =
+      output_mark(&r->output, &r->output_mark) &&
+      (!s->log || output_mark(&r->log, &r->log_mark)) &&
+      (!s->stats || output_mark(&r->stats, &r->stats_mark)) &&
+      checkpoint_write(&r->checkpoint, integrate_time(r->motion->integrator),
+                       dynamics_kernel(r->motion->dynamics), r->setup,
+                       store_all, r);
+  r->last_checkpoint = run_clock_now().wall;
+  if (done) { /* it needs them */
+    output_keep(&r->output);
+    output_keep(&r->log);
+    output_keep(&r->stats);
+  }
+  return done;
+}
+
+/* The first one fails before hours are spent; with a later one the last is
+   still there. */
+static void begin_checkpoints(struct run *r) {
+  if (!output_is_regular(&r->output) ||
+      (r->set->log && !output_is_regular(&r->log)) ||
+      (r->set->stats && !output_is_regular(&r->stats)))
+    die(EXIT_USAGE,
+        "--checkpoint: expected files for --output, --log and --stats");
+  output_reserve(&r->checkpoint, r->set->checkpoint);
+  if (!write_checkpoint(r))
+    die(EXIT_IO, "%s: %s", r->set->checkpoint, strerror(errno));
+}
+
+static void renew_checkpoint(struct run *r) {
+  if (!write_checkpoint(r))
+    warn("t=%.6g: %s: %s; the one before is still there",
+         integrate_time(r->motion->integrator), r->set->checkpoint,
+         strerror(errno));
+}
+
+static bool checkpoint_is_due(const struct run *r) {
+  return r->set->checkpoint &&
+         run_clock_now().wall - r->last_checkpoint >= r->set->every;
+}
+
 /* Steps until the end, rest or failure; the exit status. */
 static int integrate_all(struct run *r) {
   const struct settings *s = r->set;
@@ -159,7 +247,12 @@ static int integrate_all(struct run *r) {
          integrate_time(r->motion->integrator) < s->time) {
     goes_on = step(r);
     rests = goes_on && s->until_rest && at_rest(r);
+    if (goes_on && !rests && integrate_time(r->motion->integrator) < s->time &&
+        checkpoint_is_due(r))
+      renew_checkpoint(r);
   }
+  if (s->checkpoint && goes_on && !rests && litter_asked())
+    renew_checkpoint(r);
   /* ended before the last frame: the state reached is one more */
   if (r->frames < s->frames)
     write_state(r, GSL_MIN(integrate_time(r->motion->integrator), s->time),
@@ -170,8 +263,12 @@ static int integrate_all(struct run *r) {
   const double t = integrate_time(r->motion->integrator);
   if (litter_asked() && !rests && t < s->time) {
     snprintf(r->mark, sizeof r->mark, "interrupted at t=%.6g", t);
-    warn("%s: the bed is marked so; --allow-partial --scene goes on from it",
-         r->mark);
+    if (s->checkpoint)
+      warn("%s: the bed is marked so; --resume %s goes on", r->mark,
+           s->checkpoint);
+    else
+      warn("%s: the bed is marked so; --allow-partial --scene goes on from it",
+           r->mark);
     return EXIT_LIMIT;
   }
   if (rests || !s->until_rest)
@@ -181,45 +278,106 @@ static int integrate_all(struct run *r) {
   return EXIT_LIMIT;
 }
 
-int run(const struct settings *s, struct bed *b,
-        const struct bed_header *header) {
-  struct run r = {
-      .set = s, .header = header, .bed = b, .start = b->t, .mark = "ok"};
+/* Files are opened before hours are spent. */
+static void open_files(struct run *r, struct checkpoint *from) {
+  const struct settings *s = r->set;
+  r->out = stdout;
+  if (from->stream) {
+    store_marks(r, &from->store);
+    output_open_at(&r->output, s->output, &r->output_mark);
+    if (s->log)
+      output_open_at(&r->log, s->log, &r->log_mark);
+    if (s->stats)
+      output_open_at(&r->stats, s->stats, &r->stats_mark);
+  } else {
+    if (s->output)
+      output_open(&r->output, s->output);
+    if (s->log) {
+      output_open(&r->log, s->log);
+      fputs("t\th\tsteps\tevaluations\tkinetic\tpotential\n", r->log.stream);
+    }
+    if (s->stats)
+      output_open(&r->stats, s->stats);
+  }
+  if (s->output)
+    r->out = r->output.stream;
+}
+
+static void commit_files(struct run *r, int code) {
+  const struct settings *s = r->set;
+  bed_write_status(r->out, r->mark);
+  if (s->output)
+    output_commit(&r->output);
+  else
+    finish_output();
+  if (s->log)
+    output_commit(&r->log);
+  if (s->stats) {
+    const double t_end = integrate_time(r->motion->integrator);
+    watch_stats(r->watch, r->stats.stream, GSL_MIN(t_end, s->time), code);
+    output_commit(&r->stats);
+  }
+  output_mark_free(&r->output_mark);
+  output_mark_free(&r->log_mark);
+  output_mark_free(&r->stats_mark);
+}
+
+/* The motion and its watch, as they begin or as the checkpoint has them. */
+static void start_motion(struct run *r, struct checkpoint *from) {
+  const struct settings *s = r->set;
   const struct run_clock begun = run_clock_now();
-  r.rest = rest_watch_begin(b->t, &s->similarity);
+  r->rest = rest_watch_begin(r->bed->t, &s->similarity);
   int status =
-      motion_alloc(&r.motion, &s->scene, b, &s->integrate,
+      motion_alloc(&r->motion, &s->scene, r->bed, &s->integrate,
                    &(struct dynamics_options){.all_pairs = s->all_pairs,
-                                              .threads = (int)s->threads},
+                                              .threads = (int)s->threads,
+                                              .order = r->setup->order},
                    s->travel / s->scene.law.kappa);
   if (status != GSL_SUCCESS)
     die_status(status, "method %s", s->integrate.method);
-  r.y = malloc(dynamics_dimension(r.motion->dynamics) * sizeof *r.y);
-  if (!r.y)
+  if (from->stream &&
+      strcmp(from->kernel, dynamics_kernel(r->motion->dynamics)))
+    die(EXIT_INPUT,
+        "%s: was made with the kernel %s, this machine has %s: expected the "
+        "same, for the same bits",
+        s->resume, from->kernel, dynamics_kernel(r->motion->dynamics));
+  r->y = malloc(dynamics_dimension(r->motion->dynamics) * sizeof *r->y);
+  if (!r->y)
     die(EXIT_IO, "out of memory");
-  struct output_file stats; /* opened before hours are spent */
-  if (s->stats)
-    output_open(&stats, s->stats);
-  if (s->log) {
-    output_open(&r.log, s->log);
-    fputs("t\th\tsteps\tevaluations\tkinetic\tpotential\n", r.log.stream);
-  }
-  status = watch_alloc(&r.watch, s, b, r.motion, begun);
+  status = watch_alloc(&r->watch, s, r->bed, r->motion, begun);
   if (status == GSL_EFAILED)
     die(EXIT_INPUT, "the start's energy is not finite");
   if (status != GSL_SUCCESS)
     die_status(status, "start");
+  if (from->stream) {
+    store_run(r, &from->store);
+    checkpoint_close(from, s->resume);
+  }
+}
+
+int run(struct setup *setup, struct checkpoint *from) {
+  const struct settings *s = setup->set;
+  struct run r = {.set = s,
+                  .setup = setup,
+                  .header = setup->header,
+                  .bed = setup->bed,
+                  .start = setup->bed->t,
+                  .mark = "ok"};
+  progress_listen();
+  open_files(&r, from);
+  start_motion(&r, from);
+  if (!setup->order) {
+    const size_t bytes = setup->bed->n * sizeof *setup->order;
+    setup->order = malloc(bytes);
+    if (!setup->order)
+      die(EXIT_IO, "out of memory");
+    memcpy(setup->order, dynamics_order(r.motion->dynamics), bytes);
+  }
+  if (s->checkpoint)
+    begin_checkpoints(&r);
   litter_defer(); /* a signal ends the run after its step */
   const int code = integrate_all(&r);
-  bed_write_status(stdout, r.mark);
-  finish_output();
-  if (s->log)
-    output_commit(&r.log);
-  if (s->stats) {
-    const double t_end = integrate_time(r.motion->integrator);
-    watch_stats(r.watch, stats.stream, GSL_MIN(t_end, s->time), code);
-    output_commit(&stats);
-  }
+  commit_files(&r, code);
   watch_free(r.watch);
   motion_free(r.motion);
   free(r.y);

@@ -3,12 +3,10 @@
 #ifndef RUN_H
 #define RUN_H
 
-#include "files/bed_io.h"
-#include "settings.h"
+#include "checkpoint.h"
 
-/* Integrates and writes frames to standard output; returns the program's exit
-   status. */
-int run(const struct settings *s, struct bed *b,
-        const struct bed_header *header);
+/* Integrates and writes frames; returns the program's exit status. from: what
+   it goes on from, if that has a stream. */
+int run(struct setup *setup, struct checkpoint *from);
 
 #endif

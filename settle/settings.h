@@ -21,6 +21,9 @@ struct settings {
   struct similarity similarity; /* of the spheres to the paper's */
   double travel, time;
   const char *pairs, *scene_file, *stats, *log;
+  const char *output;              /* NULL: standard output */
+  const char *checkpoint, *resume; /* files, or NULL */
+  double every;                    /* between checkpoints, on the wall (s) */
   size_t frames, threads;
   bool all_pairs; /* by pairs */
   bool until_rest, allow_partial, quiet;

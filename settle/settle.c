@@ -2,6 +2,7 @@
 /* settle: integrates a bed of spheres, from the paper's start or from a file,
    and writes its frames. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include "platform/system.h"
 #include "run.h"
@@ -38,6 +39,37 @@ static void method_unset(char *text, size_t size) {
            "another --control");
 }
 
+/* All others are in the checkpoint. */
+static void check_resume(const struct option_spec *options) {
+  static const char *const names[] = {"resume", "threads", "quiet", NULL};
+  for (const struct option_spec *o = options; o->name; o++) {
+    bool may = !o->given;
+    for (size_t k = 0; names[k]; k++)
+      may = may || !strcmp(o->name, names[k]);
+    if (!may)
+      die(EXIT_USAGE,
+          "--%s: --resume goes on with the options of its file, expected none "
+          "but --threads and --quiet",
+          o->name);
+  }
+}
+
+static void check_checkpoint(const struct settings *s,
+                             struct option_spec *options) {
+  if (!s->checkpoint) {
+    if (option_find(options, "every")->given)
+      die(EXIT_USAGE, "--every: expected --checkpoint beside it");
+    return;
+  }
+  if (!s->output)
+    die(EXIT_USAGE, "--checkpoint: expected --output beside it, a file that "
+                    "--resume can go on with");
+  if (integrate_method(s->integrate.method)->opaque)
+    die(EXIT_USAGE,
+        "--checkpoint: not for --method %s, whose memory cannot be stored",
+        s->integrate.method);
+}
+
 int main(int argc, char **argv) {
   struct settings s = {.fill = {.count = 200,
                                 .radius = 0.1,
@@ -53,6 +85,7 @@ int main(int argc, char **argv) {
                        .time = 8,
                        .pairs = pair_searches[CELLS],
                        .frames = 1,
+                       .every = 600,
                        .threads = 1};
   /* clang-format off */
   struct option_spec options[] = {
@@ -112,6 +145,16 @@ int main(int argc, char **argv) {
       STATS_OPTION(s.stats),
       {.name = "log", .type = OPTION_TEXT, .value = &s.log,
        .help = "file for one row per accepted step"},
+      {.name = "output", .type = OPTION_TEXT, .value = &s.output,
+       .help = "file for the bed, instead of standard output"},
+      {.name = "checkpoint", .type = OPTION_TEXT, .value = &s.checkpoint,
+       .help = "file that --resume goes on from, beside --output"},
+      {.name = "every", .type = OPTION_DOUBLE, .value = &s.every,
+       .most = OPTION_MANY, .unit = "s on the clock",
+       .help = "between checkpoints; at signals too"},
+      {.name = "resume", .type = OPTION_TEXT, .value = &s.resume,
+       .help = "goes on from a checkpoint, to the last bit as if it had not "
+               "stopped"},
       {.name = "threads", .type = OPTION_SIZE, .value = &s.threads,
        .most = 1024, .unit = "0: all cores", .help = "threads"},
       {.name = "allow-partial", .type = OPTION_FLAG,
@@ -137,7 +180,16 @@ int main(int argc, char **argv) {
   struct bed bed = {0};
   struct bed_header header = {0};
   s.all_pairs = !strcmp(s.pairs, pair_searches[ALL]);
-  start_make(&s, options, &bed, &header);
+  struct checkpoint from = {0};
+  struct setup setup = {&s, options, &bed, &header, NULL};
+  if (s.resume) {
+    check_resume(options);
+    checkpoint_open(&from, s.resume, &setup, &setup.order);
+    s.all_pairs = !strcmp(s.pairs, pair_searches[ALL]);
+  } else {
+    start_make(&s, options, &bed, &header);
+    check_checkpoint(&s, options);
+  }
   integration_check(&s.integrate, bed.n);
   if (!integrate_method(s.integrate.method)->type && s.all_pairs)
     die(EXIT_USAGE, "--pairs %s: not for --method %s", s.pairs,
@@ -145,7 +197,9 @@ int main(int argc, char **argv) {
   if (s.time < bed.t)
     die(EXIT_USAGE, "--time %g: the start is at t=%g already", s.time, bed.t);
   s.threads = system_threads(s.threads);
-  const int status = run(&s, &bed, &header);
+  const int status = run(&setup, &from);
+  free(setup.order);
+  option_texts_free(&from.texts);
   bed_free(&bed);
   bed_header_free(&header);
   scene_free(&s.scene);

@@ -438,3 +438,20 @@ void watch_stats(const struct watch *w, FILE *out, double t_end,
   fprintf(out, "surveys\t%zu\n", w->surveys);
   run_watch_stats(w->run, out, exit_status);
 }
+
+void watch_store(struct watch *w, struct store *s) {
+  store_part(s, "watch");
+  if (w->stiff.follow)
+    stiffness_store(w->stiff.follow, s);
+  store_size(s, &w->stiff.next_sample);
+  store_size(s, &w->stiff.evaluations);
+  store_doubles(s, w->places, 3 * w->bed->n);
+  store_double(s, &w->margin);
+  store_size(s, &w->next_survey);
+  store_size(s, &w->surveys);
+  store_plain(s, &w->survey, sizeof w->survey);
+  store_double(s, &w->deepest);
+  store_size(s, &w->deep_steps);
+  store_flag(s, &w->told_overlap);
+  run_watch_store(w->run, s);
+}

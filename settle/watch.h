@@ -47,6 +47,9 @@ void watch_fail(struct watch *w, double t, const struct watch_finding *f);
    the watch. */
 size_t watch_evaluations(const struct watch *w);
 
+/* Its memory (platform/store.h), but for that of the motion. */
+void watch_store(struct watch *w, struct store *s);
+
 /* The line of progress, after a step. */
 void watch_progress(struct watch *w);
 

@@ -38,7 +38,7 @@ static struct sample random_sample(gsl_rng *rng, size_t n, int threads) {
     for (size_t k = 0; k < 3; k++)
       bed.x[3 * i + k] = uniform(rng, 0, side);
   }
-  CHECK(contact_list_alloc(&s.list, &scene, &bed, (size_t)threads) ==
+  CHECK(contact_list_alloc(&s.list, &scene, &bed, (size_t)threads, NULL) ==
         GSL_SUCCESS);
   const size_t stride = s.list->stride, dim = n * stride;
   s.y = numbers(dim);

@@ -143,7 +143,8 @@ static int reserve_rows(struct contact_list *l, size_t walls, size_t threads) {
 }
 
 int contact_list_alloc(struct contact_list **out, const struct scene *s,
-                       const struct bed *b, size_t threads) {
+                       const struct bed *b, size_t threads,
+                       const size_t *order) {
   assert(threads > 0);
   if (!bed_is_sound(b))
     return GSL_EINVAL;
@@ -154,7 +155,9 @@ int contact_list_alloc(struct contact_list **out, const struct scene *s,
   l->threads = l->most_threads = threads;
   l->walls_count = s->walls_count;
   int status = reserve_rows(l, s->walls_count, threads);
-  if (status == GSL_SUCCESS)
+  if (status == GSL_SUCCESS && order)
+    memcpy(l->order, order, b->n * sizeof *order);
+  else if (status == GSL_SUCCESS)
     status = find_order(l, b, 2 * bed_mean(b, b->r) + s->law.lmax);
   if (status == GSL_SUCCESS) {
     l->moving = put_fixed_last(l, b);
@@ -209,7 +212,7 @@ static void tune_skin(struct contact_list *l) {
   l->skin = GSL_MIN(GSL_MAX(l->skin, 0.02 * r), most_skin * r);
 }
 
-static void list_walls(struct contact_list *l, const double *y) {
+static void list_walls(struct contact_list *l, const double *y, size_t stride) {
   const double reach = l->law.lmax + l->skin;
   size_t count = 0;
   for (size_t i = 0; i < l->rows; i++) {
@@ -218,7 +221,7 @@ static void list_walls(struct contact_list *l, const double *y) {
       continue;
     for (size_t m = 0; m < l->walls_count; m++) {
       const double gap =
-          wall_distance(&l->walls[m], y + i * l->stride) - l->radius[i];
+          wall_distance(&l->walls[m], y + i * stride) - l->radius[i];
       if (gap <= reach) {
         l->wall_row[count] = (uint32_t)i;
         l->wall_id[count++] = (uint32_t)m;
@@ -367,23 +370,29 @@ static size_t largest_span(const struct neighbors *near) {
   return span;
 }
 
+/* The contacts of places within the skin; they begin the rows of y. */
+static int find_contacts(struct contact_list *l, const double *y,
+                         size_t stride) {
+  l->partners_known = false;
+  const int status = neighbors_find(&l->near, l->rows, y, stride, l->radius,
+                                    l->law.lmax + l->skin);
+  if (status != GSL_SUCCESS)
+    return status == GSL_EINVAL ? GSL_EBADFUNC : status;
+  drop_fixed(l);
+  list_walls(l, y, stride);
+  l->span = largest_span(&l->near);
+  return contact_list_share(l);
+}
+
 /* For states within the way of y. */
 static int build(struct contact_list *l, const double *y, double way) {
   if (l->age != SIZE_MAX)
     tune_skin(l);
   l->skin = GSL_MAX(l->skin, 2 * way);
-  l->partners_known = false;
   l->age = SIZE_MAX; /* stays so if anything below fails */
-  int status = neighbors_find(&l->near, l->rows, y, l->stride, l->radius,
-                              l->law.lmax + l->skin);
-  if (status == GSL_SUCCESS) {
-    drop_fixed(l);
-    list_walls(l, y);
-    l->span = largest_span(&l->near);
-    status = contact_list_share(l);
-  }
+  const int status = find_contacts(l, y, l->stride);
   if (status != GSL_SUCCESS)
-    return status == GSL_EINVAL ? GSL_EBADFUNC : status;
+    return status;
   for (size_t i = 0; i < l->rows; i++)
     memcpy(l->reference + 3 * i, y + i * l->stride, 3 * sizeof *y);
   l->builds++;
@@ -442,4 +451,18 @@ double contact_list_speed(const struct contact_list *l, size_t row,
   const double v = vec3_norm(y + ROW_V);
   return l->has.rotation ? GSL_MAX(v, l->radius[row] * vec3_norm(y + ROW_W))
                          : v;
+}
+
+/* The contacts themselves follow from the places that they were found at. */
+void contact_list_store(struct contact_list *l, struct store *s) {
+  store_part(s, "contact list");
+  store_double(s, &l->skin);
+  store_size(s, &l->age);
+  store_size(s, &l->builds);
+  store_doubles(s, l->reference, 3 * l->rows);
+  if (s->loads && store_status(s) == GSL_SUCCESS && l->age != SIZE_MAX) {
+    const int status = find_contacts(l, l->reference, 3);
+    if (status != GSL_SUCCESS)
+      store_fail(s, status == GSL_ENOMEM ? status : GSL_EINVAL);
+  }
 }

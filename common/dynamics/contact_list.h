@@ -14,6 +14,7 @@
 #include "geometry/neighbors.h"
 #include "model/bed.h"
 #include "model/scene.h"
+#include "platform/store.h"
 
 /* Features of the contacts of a scene. */
 struct contact_features {
@@ -99,10 +100,12 @@ struct contact_list {
 };
 
 /* Prepares the list of a scene and its spheres; keeps no pointer to either.
+   order: the spheres in the rows, each once; NULL: in the order of space.
    GSL_EINVAL if there is no sphere, more than 2^32 - 2 of them, or a radius or
    mass is not positive; GSL_ENOMEM. */
 int contact_list_alloc(struct contact_list **out, const struct scene *s,
-                       const struct bed *b, size_t threads);
+                       const struct bed *b, size_t threads,
+                       const size_t *order);
 void contact_list_free(struct contact_list *l);
 
 /* Makes the list hold for the state y. GSL_SUCCESS, GSL_EBADFUNC for a position
@@ -134,5 +137,8 @@ int contact_list_partners(struct contact_list *l);
 /* Parts, pairs that come into them and room for sums, of a list whose contacts
    and span are new. GSL_SUCCESS, GSL_ENOMEM. */
 int contact_list_share(struct contact_list *l);
+
+/* Its memory (platform/store.h), of a list of a whole bed. */
+void contact_list_store(struct contact_list *l, struct store *s);
 
 #endif

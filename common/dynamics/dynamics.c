@@ -28,7 +28,8 @@ int dynamics_alloc(struct dynamics **out, const struct scene *s,
     return GSL_ENOMEM;
   d->options = *o;
   d->kernel = kernel_select();
-  const int status = contact_list_alloc(&d->list, s, b, (size_t)o->threads);
+  const int status =
+      contact_list_alloc(&d->list, s, b, (size_t)o->threads, o->order);
   if (status != GSL_SUCCESS) {
     dynamics_free(d);
     return status;
@@ -201,4 +202,15 @@ double dynamics_fastest(const struct dynamics *d, const double y[]) {
   for (size_t i = 0; i < l->rows; i++)
     fastest = GSL_MAX(fastest, contact_list_speed(l, i, y + i * l->stride));
   return fastest;
+}
+
+const size_t *dynamics_order(const struct dynamics *d) {
+  return d->list->order;
+}
+
+void dynamics_store(struct dynamics *d, struct store *s) {
+  store_part(s, "dynamics");
+  store_double(s, &d->evaluations);
+  store_double(s, &d->contacts);
+  contact_list_store(d->list, s);
 }

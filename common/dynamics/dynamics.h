@@ -17,6 +17,7 @@
 #include "dynamics/survey.h"
 #include "model/bed.h"
 #include "model/scene.h"
+#include "platform/store.h"
 #include "steppers/stage.h"
 
 struct dynamics;
@@ -24,6 +25,8 @@ struct dynamics;
 struct dynamics_options {
   bool all_pairs; /* visit every pair twice, as the paper does; a baseline */
   int threads;    /* at least 1 */
+  /* Of the rows: the spheres, as dynamics_order had them; NULL: by places. */
+  const size_t *order;
 };
 
 struct dynamics_counts {
@@ -81,6 +84,13 @@ double dynamics_potential(struct dynamics *d, const double y[]);
 /* Surveys the contacts of a state. May rebuild the pair list. GSL_SUCCESS, or
    an error as of dynamics_rhs. */
 int dynamics_survey(struct dynamics *d, const double y[], struct survey *s);
+
+/* The sphere in each row. */
+const size_t *dynamics_order(const struct dynamics *d);
+
+/* Its memory (platform/store.h), for dynamics of the same scene, spheres and
+   order. */
+void dynamics_store(struct dynamics *d, struct store *s);
 
 /* Largest speed of any sphere's surface, |v| or r |w| (m/s). */
 double dynamics_fastest(const struct dynamics *d, const double y[]);

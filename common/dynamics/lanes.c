@@ -496,3 +496,36 @@ int lanes_alloc(struct lanes **out, struct dynamics *d, double tol,
   *out = all;
   return GSL_SUCCESS;
 }
+
+/* Counts of a depth are added up, and taken out by the first lane. */
+static void store_counts(struct lanes *all, size_t depth, struct store *s) {
+  struct level_counts sum = {0};
+  size_t power = 0;
+  for (size_t k = 0; k < all->count; k++) {
+    const struct level *l = all->lane[k].level[depth];
+    sum.contacts += l->counts.contacts;
+    sum.steps += l->counts.steps;
+    sum.rejected += l->counts.rejected;
+    sum.rows += l->counts.rows;
+    sum.evaluations += l->counts.evaluations;
+    sum.refined += l->counts.refined;
+    sum.again += l->counts.again;
+    power += l->power.evaluations;
+  }
+  store_plain(s, &sum, sizeof sum);
+  store_size(s, &power);
+  if (!s->loads)
+    return;
+  for (size_t k = 0; k < all->count; k++) {
+    struct level *l = all->lane[k].level[depth];
+    l->counts = k ? (struct level_counts){0} : sum;
+    l->power.evaluations = k ? 0 : power;
+  }
+}
+
+void lanes_store(struct lanes *all, struct store *s) {
+  store_part(s, "lanes");
+  level_store(lanes_bed(all), s);
+  for (size_t q = 1; q < LANES_LEVELS; q++)
+    store_counts(all, q, s);
+}

@@ -11,8 +11,8 @@
 enum { LANES_LEVELS = 3 };
 
 /* Changes by the rows of an island in the rates of their partners: a row of the
-   level above each, its change, as long as a row, and the largest error that its
-   partners in the island had in the first try, 1: the tolerance. */
+   level above each, its change, as long as a row, and the largest error that
+   its partners in the island had in the first try, 1: the tolerance. */
 struct changes {
   size_t count, size;
   uint32_t *row;
@@ -72,5 +72,8 @@ int lanes_step(struct lanes *all, double t, double *h);
    be taken again. */
 double lanes_longest(double h);
 double lanes_shortest(double h);
+
+/* Their memory between steps (platform/store.h), for any number of threads. */
+void lanes_store(struct lanes *all, struct store *s);
 
 #endif

@@ -11,6 +11,7 @@
 #include "dynamics/rates.h"
 #include "model/travel.h"
 #include "platform/multiversion.h"
+#include "steppers/power_store.h"
 
 /* Steps that an estimate of the spectral radius serves unless one is
    rejected. */
@@ -471,4 +472,20 @@ int level_feedback(struct level *child, const struct level *l, double t,
   for (size_t k = 0; k < ghosts; k++)
     change[k] = rates[k] - change[k];
   return status;
+}
+
+/* --- from one step to the next ---------------------------------------------*/
+
+void level_store(struct level *l, struct store *s) {
+  const size_t dim = l->rows * l->stride;
+  store_part(s, "level");
+  store_doubles(s, l->y0, dim);
+  store_doubles(s, l->f0, dim);
+  store_doubles(s, l->wanted, l->rows);
+  store_flags(s, l->refined, l->rows);
+  power_store(&l->power, dim, s);
+  store_flag(s, &l->inherited);
+  store_size(s, &l->served);
+  store_size(s, &l->stages);
+  store_plain(s, &l->counts, sizeof l->counts);
 }

@@ -110,4 +110,8 @@ double level_row_error(const struct level *l, size_t row, const double v[]);
 /* The longest step of a row from y0 by setting->travel (s). */
 double level_row_limit(const struct level *l, size_t row);
 
+/* The memory of the level of a bed between its steps (platform/store.h):
+   levels below it are made afresh in each step, but for their counts. */
+void level_store(struct level *l, struct store *s);
+
 #endif

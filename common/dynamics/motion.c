@@ -104,6 +104,11 @@ const struct multirate *motion_multirate(const struct motion *m) {
   return integrate_engine(m->integrator);
 }
 
+void motion_store(struct motion *m, struct store *s) {
+  dynamics_store(m->dynamics, s);
+  integrate_store(m->integrator, s);
+}
+
 void motion_free(struct motion *m) {
   if (!m)
     return;

@@ -29,6 +29,10 @@ int motion_alloc_over_floor(struct motion **out, const struct scene *s,
 /* The state of method multirate (multirate.h), or NULL. */
 const struct multirate *motion_multirate(const struct motion *m);
 
+/* Its memory (platform/store.h), for a motion of the same scene, spheres,
+   options and order. */
+void motion_store(struct motion *m, struct store *s);
+
 void motion_free(struct motion *m);
 
 #endif

@@ -177,12 +177,24 @@ static void multirate_at(const void *engine, double t, double y[]) {
     trace_at(m->lanes->lane[k].trace, m->t - m->last_step, l->y1, l->f1, t, y);
 }
 
+static void multirate_store(void *engine, struct store *s) {
+  struct multirate *m = engine;
+  store_part(s, "multirate");
+  store_double(s, &m->t);
+  store_double(s, &m->last_step);
+  store_flag(s, &m->started);
+  store_size(s, &m->most_stages);
+  store_size(s, &m->contacts);
+  lanes_store(m->lanes, s);
+}
+
 const struct integrate_engine multirate_engine = {.alloc = multirate_alloc,
                                                   .free = multirate_free,
                                                   .step = multirate_step,
                                                   .view = multirate_view,
                                                   .report = multirate_found,
-                                                  .at = multirate_at};
+                                                  .at = multirate_at,
+                                                  .store = multirate_store};
 
 struct multirate_report multirate_report(const struct multirate *m) {
   struct multirate_report r = {0};

@@ -75,6 +75,24 @@ void bed_header_free(struct bed_header *h) {
   *h = (struct bed_header){0};
 }
 
+void bed_header_store(struct bed_header *h, struct store *s) {
+  size_t count = h->count;
+  store_part(s, "header");
+  store_size(s, &count);
+  for (size_t k = 0; k < count && store_status(s) == GSL_SUCCESS; k++) {
+    char *name = s->loads ? NULL : h->at[k].name;
+    char *value = s->loads ? NULL : h->at[k].value;
+    store_text(s, &name);
+    store_text(s, &value);
+    if (!s->loads)
+      continue;
+    if (name && value)
+      store_fail(s, bed_header_add(h, name, value));
+    free(name);
+    free(value);
+  }
+}
+
 /* Writer */
 
 void bed_write_frame(FILE *out, const struct bed_header *h, const struct bed *b,

@@ -10,6 +10,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 #include "model/bed.h"
+#include "platform/store.h"
 
 /* Keys of a header in order. A key may be repeated (wall). */
 struct bed_header {
@@ -26,6 +27,9 @@ int bed_header_set(struct bed_header *h, const char *name, const char *value);
 const char *bed_header_get(const struct bed_header *h, const char *name);
 void bed_header_remove(struct bed_header *h, const char *name);
 void bed_header_free(struct bed_header *h);
+
+/* All of it (platform/store.h), taken out into an empty header. */
+void bed_header_store(struct bed_header *h, struct store *s);
 
 /* Writes a frame: its header's keys, t, columns and rows; spin adds the
    columns of angular velocity. Separate frames with bed_write_gap and end the

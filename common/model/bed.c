@@ -79,3 +79,35 @@ int bed_copy(struct bed *to, const struct bed *from) {
   }
   return GSL_SUCCESS;
 }
+
+void bed_store(struct bed *b, struct store *s) {
+  struct stored {
+    double t;
+    size_t n;
+    void *columns[7];
+  };
+  _Static_assert(sizeof(struct bed) == sizeof(struct stored),
+                 "what is new in a bed is to be stored");
+  size_t n = b->n;
+  store_part(s, "bed");
+  store_size(s, &n);
+  if (store_status(s) == GSL_SUCCESS && s->loads)
+    store_fail(s, bed_alloc(b, n));
+  store_double(s, &b->t);
+  for (size_t i = 0; i < n && store_status(s) == GSL_SUCCESS; i++) {
+    int64_t id = b->id[i];
+    store_bytes(s, &id, sizeof id);
+    b->id[i] = (long)id;
+  }
+  double *const vectors[] = {b->x, b->v, b->w};
+  for (size_t k = 0; k < 3; k++)
+    store_doubles(s, vectors[k], 3 * n);
+  store_doubles(s, b->r, n);
+  store_doubles(s, b->m, n);
+  bool has_fixed = b->fixed != NULL;
+  store_flag(s, &has_fixed);
+  if (has_fixed && s->loads && store_status(s) == GSL_SUCCESS)
+    store_fail(s, bed_fix_none(b));
+  if (has_fixed)
+    store_flags(s, b->fixed, n);
+}

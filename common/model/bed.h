@@ -6,6 +6,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include "platform/store.h"
 
 struct bed {
   double t; /* s */
@@ -39,5 +40,9 @@ double bed_mean(const struct bed *b, const double x[]);
 
 /* The same again, in memory of its own. GSL_ENOMEM. */
 int bed_copy(struct bed *to, const struct bed *from);
+
+/* All of it (platform/store.h): what is added to struct bed is added there.
+   Taken out into a bed that has no memory yet. */
+void bed_store(struct bed *b, struct store *s);
 
 #endif

@@ -129,3 +129,39 @@ void scene_free(struct scene *s) {
   s->walls = NULL;
   s->walls_count = 0;
 }
+
+static void store_walls(struct scene *scene, struct store *s) {
+  size_t count = scene->walls_count;
+  store_size(s, &count);
+  for (size_t k = 0; k < count && store_status(s) == GSL_SUCCESS; k++) {
+    const double up[3] = {0, 0, 1};
+    if (s->loads && scene_add_wall(scene, up, up) != GSL_SUCCESS) {
+      store_fail(s, GSL_ENOMEM);
+      return;
+    }
+    store_doubles(s, scene->walls[k].point, 3);
+    store_doubles(s, scene->walls[k].normal, 3); /* not normalised again */
+  }
+}
+
+void scene_store(struct scene *scene, struct store *s) {
+  struct stored {
+    enum scene_model model;
+    struct contact_law law;
+    double gravity[3];
+    size_t walls_count;
+    void *walls;
+  };
+  _Static_assert(sizeof(struct scene) == sizeof(struct stored),
+                 "what is new in a scene is to be stored");
+  size_t model = scene->model;
+  store_part(s, "scene");
+  store_size(s, &model);
+  if (model > SCENE_ROTATION)
+    store_fail(s, GSL_EINVAL);
+  else
+    scene->model = (enum scene_model)model;
+  store_plain(s, &scene->law, sizeof scene->law);
+  store_doubles(s, scene->gravity, 3);
+  store_walls(scene, s);
+}

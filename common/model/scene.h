@@ -7,6 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include "model/contact.h"
+#include "platform/store.h"
 
 /* Lever arms by name: the enum contact_lever. */
 struct scene_lever {
@@ -76,5 +77,9 @@ static inline double wall_distance(const struct wall *w, const double x[3]) {
 const char *scene_check(const struct scene *s);
 
 void scene_free(struct scene *s);
+
+/* All of it (platform/store.h): what is added to struct scene is added there.
+   Taken out into a scene without walls. */
+void scene_store(struct scene *scene, struct store *s);
 
 #endif

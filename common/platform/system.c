@@ -2,8 +2,14 @@
 #define _POSIX_C_SOURCE 200809L
 #include "platform/system.h"
 
+#include <limits.h> /* says which C library this is */
+#include <stdio.h>
 #include <sys/resource.h>
 #include <unistd.h>
+#include <gsl/gsl_version.h>
+#ifdef __GLIBC__
+#include <gnu/libc-version.h>
+#endif
 #ifdef _OPENMP
 #include <omp.h>
 #endif
@@ -38,6 +44,23 @@ long system_peak_memory(void) {
 #else
   return (long)usage.ru_maxrss;
 #endif
+}
+
+void system_build(char text[SYSTEM_BUILD_SIZE]) {
+#ifdef __clang__
+  const char compiler[] = "clang " __clang_version__;
+#elif defined __GNUC__
+  const char compiler[] = "gcc " __VERSION__;
+#else
+  const char compiler[] = "another compiler";
+#endif
+#ifdef __GLIBC__
+  const char *const library = gnu_get_libc_version();
+#else
+  const char *const library = "another";
+#endif
+  snprintf(text, SYSTEM_BUILD_SIZE, "%.100s, C library %.40s, GSL %.40s",
+           compiler, library, gsl_version);
 }
 
 bool system_program(char *path, size_t size) {

@@ -18,6 +18,11 @@ size_t system_thread(void);
    not tell. */
 long system_peak_memory(void);
 
+/* What made this program and what it computes with, in one line: compiler, C
+   library, GSL. Other ones may round otherwise. */
+enum { SYSTEM_BUILD_SIZE = 256 };
+void system_build(char text[SYSTEM_BUILD_SIZE]);
+
 /* The path of the running program's file, without links. False where the
    system does not tell or it does not fit. */
 bool system_program(char *path, size_t size);

@@ -127,50 +127,73 @@ static _Noreturn void cannot_write(const char *path) {
   die(EXIT_IO, "%s: %s", path, strerror(errno));
 }
 
+/* For as long as it is open; false if another process has it. */
+static bool lock(int fd) {
+  struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+  return fcntl(fd, F_SETLK, &whole) == 0 ||
+         (errno != EACCES && errno != EAGAIN); /* nobody can lock it */
+}
+
 /* Opens a new file beside the target, with the mode and owner of the one that
-   is to be replaced. */
-static void open_partial(struct output_file *f, const struct stat *old) {
-  char ending[48];
-  snprintf(ending, sizeof ending, ".partial-%ld", (long)getpid());
+   is to be replaced. False with errno. */
+static bool open_partial(struct output_file *f, const struct stat *old) {
+  char ending[48] = ".partial"; /* of what is renewed: the next run's too */
+  if (!f->renewed)
+    snprintf(ending, sizeof ending, ".partial-%ld", (long)getpid());
   f->partial = joined(f->target, strlen(f->target), ending);
-  int fd = open(f->partial, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  int fd = open(f->partial, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (fd < 0 && errno == EEXIST && unlink(f->partial) == 0) /* long dead */
-    fd = open(f->partial, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    fd = open(f->partial, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (fd < 0)
-    cannot_write(f->path);
+    return false;
   litter_add(f->partial);
   if (old) {
     if (fchown(fd, old->st_uid, old->st_gid) != 0)
       errno = 0; /* only root may; then it becomes ours */
-    if (fchmod(fd, old->st_mode & 0777) != 0)
-      cannot_write(f->path);
+    if (fchmod(fd, old->st_mode & 0777) != 0) {
+      close(fd);
+      return false;
+    }
   }
+  lock(fd);
   f->stream = fdopen(fd, "w");
+  return f->stream != NULL;
 }
 
-void output_open(struct output_file *f, const char *path) {
-  struct stat st;
+/* Where it is to be, which is not in use; whether it is there already. */
+static bool find_target(struct output_file *f, const char *path,
+                        struct stat *st) {
   *f = (struct output_file){.path = path};
   if (!strcmp(path, "-"))
     die(EXIT_USAGE, "-: expected the name of a file, such as /dev/stderr");
   claim_standard_output();
-  const bool there = stat(path, &st) == 0;
-  if (!there || S_ISREG(st.st_mode))
+  const bool there = stat(path, st) == 0;
+  if (!there || S_ISREG(st->st_mode))
     f->target = follow(path);
-  if (!f->target) {
-    f->stream = fopen(path, "w");
-  } else {
+  if (f->target) {
     char *real = canonical(f->target);
     free(f->target);
     f->target = real;
-    claim((struct use){path, true, there ? st.st_dev : 0, there ? st.st_ino : 0,
-                       f->target});
-    f->others = there ? st.st_nlink - 1 : 0;
-    if (!there || access(f->target, W_OK) == 0)
-      open_partial(f, there ? &st : NULL);
+    claim((struct use){path, true, there ? st->st_dev : 0,
+                       there ? st->st_ino : 0, f->target});
+    f->others = there ? st->st_nlink - 1 : 0;
   }
+  return there;
+}
+
+void output_open(struct output_file *f, const char *path) {
+  struct stat st;
+  const bool there = find_target(f, path, &st);
+  if (!f->target)
+    f->stream = fopen(path, "w");
+  else if (!there || access(f->target, W_OK) == 0)
+    open_partial(f, there ? &st : NULL);
   if (!f->stream)
     cannot_write(path);
+}
+
+bool output_is_regular(const struct output_file *f) {
+  return f->target != NULL;
 }
 
 /* Has the disk keep the file, as far as there is a disk. */
@@ -219,6 +242,165 @@ void output_commit(struct output_file *f) {
   free(f->partial);
   free(f->target);
   free(f->joined);
+}
+
+/* --- files that a checkpoint refers to -------------------------------------*/
+
+void output_mark_free(struct output_mark *m) {
+  free(m->partial);
+  *m = (struct output_mark){0};
+}
+
+/* Adds bytes of the file, from one place to another, to the sum. */
+static bool add_bytes(int fd, size_t from, size_t to, struct checksum *sum) {
+  char bytes[1 << 16];
+  while (from < to) {
+    const size_t some = to - from < sizeof bytes ? to - from : sizeof bytes;
+    const ssize_t got = pread(fd, bytes, some, (off_t)from);
+    if (got <= 0)
+      return false;
+    checksum_add(sum, bytes, (size_t)got);
+    from += (size_t)got;
+  }
+  return true;
+}
+
+bool output_mark(struct output_file *f, struct output_mark *m) {
+  if (fflush(f->stream) != 0 || output_failed(f) || !synchronize(f->stream))
+    return false;
+  const off_t end = ftello(f->stream);
+  struct checksum sum = m->length ? m->sum : checksum_begin();
+  if (end < 0 || !add_bytes(fileno(f->stream), m->length, (size_t)end, &sum))
+    return false;
+  if (!m->partial)
+    m->partial = joined(f->partial, strlen(f->partial), "");
+  m->length = (size_t)end;
+  m->sum = sum;
+  return true;
+}
+
+void output_keep(struct output_file *f) {
+  litter_forget(f->partial);
+}
+
+void output_mark_store(struct output_mark *m, struct store *s) {
+  store_part(s, "output");
+  store_text(s, &m->partial);
+  store_size(s, &m->length);
+  store_bytes(s, &m->sum.rest, sizeof m->sum.rest);
+}
+
+/* Does the file begin with what was marked? */
+static bool begins_as_marked(int fd, const struct output_mark *m) {
+  struct checksum sum = checksum_begin();
+  return add_bytes(fd, 0, m->length, &sum) &&
+         (!m->length || sum.rest == m->sum.rest);
+}
+
+/* What a process that was killed has left. */
+static bool open_left(struct output_file *f, const struct output_mark *m) {
+  const int fd = m->partial ? open(m->partial, O_RDWR | O_CLOEXEC) : -1;
+  if (fd < 0)
+    return false;
+  if (!lock(fd))
+    die(EXIT_USAGE, "%s: is being written by another run", m->partial);
+  if (!begins_as_marked(fd, m) || ftruncate(fd, (off_t)m->length) != 0 ||
+      lseek(fd, 0, SEEK_END) < 0) {
+    close(fd);
+    return false;
+  }
+  f->partial = joined(m->partial, strlen(m->partial), "");
+  f->stream = fdopen(fd, "w");
+  return f->stream != NULL;
+}
+
+/* What a process has committed, which goes on in another file. */
+static bool open_committed(struct output_file *f, struct output_mark *m,
+                           const struct stat *st) {
+  const int fd = open(f->target, O_RDONLY | O_CLOEXEC);
+  bool good = fd >= 0 && begins_as_marked(fd, m) && open_partial(f, st);
+  char bytes[1 << 16];
+  for (size_t at = 0; good && at < m->length;) {
+    const size_t left = m->length - at;
+    const ssize_t got =
+        pread(fd, bytes, left < sizeof bytes ? left : sizeof bytes, (off_t)at);
+    good = got > 0 && fwrite(bytes, 1, (size_t)got, f->stream) == (size_t)got;
+    at += good ? (size_t)got : 0;
+  }
+  if (fd >= 0)
+    close(fd);
+  return good;
+}
+
+void output_open_at(struct output_file *f, const char *path,
+                    struct output_mark *m) {
+  struct stat st;
+  const bool there = find_target(f, path, &st);
+  m->sum = (struct checksum){.rest = m->sum.rest};
+  memcpy(m->sum.table, checksum_begin().table, sizeof m->sum.table);
+  if (f->target && open_left(f, m))
+    return;
+  if (f->target && ((there && open_committed(f, m, &st)) ||
+                    (!m->length && open_partial(f, NULL)))) {
+    free(m->partial); /* has another name from now on */
+    m->partial = NULL;
+    return;
+  }
+  die(EXIT_INPUT,
+      "%s: expected to begin with the %zu bytes that it had at the checkpoint, "
+      "or %s to do so",
+      path, m->length, m->partial);
+}
+
+void output_reserve(struct output_file *f, const char *path) {
+  struct stat st;
+  find_target(f, path, &st);
+  if (!f->target)
+    die(EXIT_USAGE, "%s: expected a file that can be replaced", path);
+  f->renewed = true;
+}
+
+bool output_renew(struct output_file *f) {
+  f->stream = NULL;
+  if (open_partial(f, NULL))
+    return true;
+  litter_forget(f->partial);
+  free(f->partial);
+  f->partial = NULL;
+  return false;
+}
+
+/* The file becomes the one before, if it is there. At no moment it is not. */
+static bool keep_old(const struct output_file *f) {
+  char *old = joined(f->target, strlen(f->target), ".old");
+  const bool done = (unlink(old) == 0 || errno == ENOENT) &&
+                    (link(f->target, old) == 0 || errno == ENOENT ||
+                     rename(f->target, old) == 0 || errno == ENOENT);
+  free(old);
+  return done;
+}
+
+bool output_renewed(struct output_file *f, bool good) {
+  good = fflush(f->stream) == 0 && !ferror(f->stream) && good &&
+         synchronize(f->stream);
+  int error = errno;
+  if (fclose(f->stream) != 0 && good) {
+    good = false;
+    error = errno;
+  }
+  if (good && !(keep_old(f) && rename(f->partial, f->target) == 0)) {
+    good = false;
+    error = errno;
+  }
+  if (good)
+    synchronize_directory(f->target);
+  else
+    unlink(f->partial);
+  litter_forget(f->partial);
+  free(f->partial);
+  f->partial = NULL;
+  errno = error;
+  return good;
 }
 
 static char *path_in(const char *folder, const char *name) {

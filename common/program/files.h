@@ -7,6 +7,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
+#include "platform/checksum.h"
+#include "platform/store.h"
 #include "program/unpack.h"
 
 /* Written beside its final name and renamed when complete; what is not a
@@ -21,6 +23,7 @@ struct output_file {
   uintmax_t others; /* names of the file that is replaced */
   char *joined;     /* the path, where it is the file's own */
   FILE *stream;
+  bool renewed; /* output_reserve */
   int error; /* errno of the first write that failed, if that was looked for */
 };
 
@@ -45,6 +48,43 @@ char *output_folder_in(const char *folder, const char *name);
 /* output_open of a file in a folder. */
 void output_open_in(struct output_file *f, const char *folder,
                     const char *name);
+
+/* Of an output that goes on for hours and from a checkpoint: what it has by
+   then. Zero-initialise. */
+struct output_mark {
+  char *partial; /* where it is written */
+  size_t length;
+  struct checksum sum; /* of all its bytes */
+};
+void output_mark_free(struct output_mark *m);
+
+/* Marks what is written so far, which is then on the disk. False with errno,
+   and the mark is as it was. A mark of its own for each output, from its
+   beginning on. */
+bool output_mark(struct output_file *f, struct output_mark *m);
+/* From now on it stays if the program ends before its commit. */
+void output_keep(struct output_file *f);
+/* All of it (platform/store.h). */
+void output_mark_store(struct output_mark *m, struct store *s);
+
+/* As output_open, for a file that was marked, to go on from there: what was
+   written later is cut off. Exits with EXIT_INPUT where its beginning is no
+   longer what it was, with EXIT_USAGE while another process writes it. */
+void output_open_at(struct output_file *f, const char *path,
+                    struct output_mark *m);
+
+/* A file that is written again and again while the program works, each time as
+   a whole, and of which the last two are kept, the one before as path.old. The
+   first call is as output_open, but for a stream, and for a file that is not
+   regular, which is EXIT_USAGE; the second gives the stream, the third puts the
+   file in its place unless the stream or the caller failed. Both return false
+   with errno, and the last file is still there. */
+void output_reserve(struct output_file *f, const char *path);
+bool output_renew(struct output_file *f);
+bool output_renewed(struct output_file *f, bool good);
+
+/* Whether it is a regular file, or is to be one: written beside its name. */
+bool output_is_regular(const struct output_file *f);
 
 struct input {
   const char *name; /* what messages call it */

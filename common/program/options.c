@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#define _POSIX_C_SOURCE 200809L
 #include "program/options.h"
 
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include "files/numbers.h"
@@ -194,4 +196,59 @@ void option_default(const struct option_spec *o, char *text, size_t size) {
     text[0] = 0;
   if (!*text && o->unset)
     o->unset(text, size);
+}
+
+void option_texts_free(struct option_texts *t) {
+  for (size_t k = 0; k < t->count; k++)
+    free(t->at[k]);
+  t->count = 0;
+}
+
+/* Keeps the text where the option points to it. */
+static bool take_text(struct option_spec *o, char *text,
+                      struct option_texts *t) {
+  const bool keep = o->type == OPTION_TEXT && !o->choices;
+  const size_t most = sizeof t->at / sizeof *t->at;
+  const bool is_default_flag = o->type == OPTION_FLAG && !strcmp(text, "no");
+  if (keep && t->count == most)
+    return false;
+  if (keep)
+    t->at[t->count++] = text;
+  const bool good = is_default_flag || !option_set(o, text);
+  if (!keep)
+    free(text);
+  return good;
+}
+
+/* A text that points to nothing is one that is not there. */
+static void store_option(struct option_spec *o, struct option_texts *t,
+                         struct store *s) {
+  char number[320];
+  const char *given = number;
+  if (o->type == OPTION_TEXT)
+    given = *(const char *const *)o->value;
+  else
+    option_text(o, number, sizeof number);
+  char *copy = given ? strdup(given) : NULL;
+  if (given && !copy)
+    store_fail(s, GSL_ENOMEM);
+  char *text = copy;
+  store_text(s, &text);
+  free(copy);
+  if (!s->loads || store_status(s) != GSL_SUCCESS || !text)
+    return;
+  if (o->given)
+    free(text);
+  else if (!take_text(o, text, t))
+    store_fail(s, GSL_EINVAL);
+}
+
+void options_store(struct option_spec *options, struct option_texts *t,
+                   struct store *s) {
+  store_part(s, "options");
+  for (struct option_spec *o = options; o->name; o++)
+    if (!o->each) {
+      store_part(s, o->name);
+      store_option(o, t, s);
+    }
 }

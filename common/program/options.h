@@ -8,6 +8,7 @@
 #include <stddef.h>
 #include "files/numbers.h"
 #include "model/similarity.h"
+#include "platform/store.h"
 
 enum option_type {
   OPTION_FLAG,   /* bool */
@@ -67,6 +68,19 @@ const char *option_choice_help(const struct option_spec *o, size_t k);
 /* Gives defaults with a dimension, of options that were not given, the value
    that they have for other spheres than the paper's. */
 void options_scale(struct option_spec *options, const struct similarity *s);
+
+/* Texts that options point to. */
+struct option_texts {
+  size_t count;
+  char *at[16];
+};
+void option_texts_free(struct option_texts *t);
+
+/* All values (platform/store.h), but for those with a function of their own
+   (each). What was given stays as it is when the others are taken out; texts
+   are then kept in t. */
+void options_store(struct option_spec *options, struct option_texts *t,
+                   struct store *s);
 
 /* The value as text, as option_set reads it; numbers by number_format. */
 void option_text(const struct option_spec *o, char *text, size_t size);

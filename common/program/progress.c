@@ -3,6 +3,7 @@
 #include "program/progress.h"
 
 #include <poll.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -70,6 +71,25 @@ void progress_tell(struct progress *p, double done) {
   pass_on();
   if (p->shows)
     show(p, done, t - p->begun);
+}
+
+static volatile sig_atomic_t asked;
+
+static void ask(int number) {
+  (void)number;
+  asked = 1;
+}
+
+void progress_listen(void) {
+  struct sigaction new = {.sa_handler = ask, .sa_flags = SA_RESTART};
+  sigemptyset(&new.sa_mask);
+  sigaction(SIGUSR1, &new, NULL);
+}
+
+bool progress_asked(void) {
+  const bool was = asked;
+  asked = 0;
+  return was;
 }
 
 void progress_end(struct progress *p) {

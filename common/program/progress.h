@@ -33,6 +33,12 @@ void progress_tell(struct progress *p, double done);
 /* The clock begins anew, for other work. */
 void progress_restart(struct progress *p);
 
+/* From now on USR1 does not end the program: it asks for one line of what is
+   done, on standard error. */
+void progress_listen(void);
+/* Whether it was asked for since the last call. */
+bool progress_asked(void);
+
 /* The line goes, until there is more to tell. */
 void progress_end(struct progress *p);
 

@@ -233,11 +233,16 @@ double run_watch_energy_share(const struct run_watch *w) {
 /* --- progress --------------------------------------------------------------*/
 
 void run_watch_progress(struct run_watch *w, double end, size_t evaluations) {
+  const double done = (w->time - w->start) / (end - w->start);
+  if (progress_asked())
+    warn("t=%.6g s, %.1f %%  h=%.2e s  %zu evaluations  %.0f s so far", w->time,
+         100 * done, integrate_last_step(w->set.integrator), evaluations,
+         run_clock_now().wall - w->set.begun.wall);
   if (!progress_due(&w->progress))
     return;
   progress_name(&w->progress, "t=%.3f s  h=%.2e s  %zu evaluations", w->time,
                 integrate_last_step(w->set.integrator), evaluations);
-  progress_tell(&w->progress, (w->time - w->start) / (end - w->start));
+  progress_tell(&w->progress, done);
 }
 
 /* --- statistics ------------------------------------------------------------*/
@@ -291,4 +296,49 @@ void run_watch_stats(const struct run_watch *w, FILE *out, int exit_status) {
   fprintf(out, "energy_gain\t%.3g\n", w->energy.gain);
   fprintf(out, "warnings\t%zu\n", w->warnings);
   fprintf(out, "exit_status\t%d\n", exit_status);
+}
+
+/* --- from one run to the next ----------------------------------------------*/
+
+static void store_median(gsl_rstat_quantile_workspace *m, struct store *s) {
+  store_doubles(s, m->q, 5);
+  store_doubles(s, m->np, 5);
+  store_bytes(s, m->npos, sizeof m->npos);
+  store_size(s, &m->n);
+}
+
+static void store_pace(struct pace *p, struct store *s) {
+  store_part(s, "pace");
+  store_median(p->product, s);
+  store_median(p->ratio, s);
+  store_double(s, &p->mode.radius);
+  store_double(s, &p->mode.angle);
+  store_double(s, &p->limit);
+  store_size(s, &p->steps);
+  store_double(s, &p->limited_time);
+  store_double(s, &p->beyond_time);
+}
+
+static void store_clock(struct run_clock *begun, struct store *s) {
+  const struct run_clock now = run_clock_now();
+  double wall = now.wall - begun->wall, cpu = now.cpu - begun->cpu;
+  store_double(s, &wall);
+  store_double(s, &cpu);
+  if (s->loads)
+    *begun = (struct run_clock){now.wall - wall, now.cpu - cpu};
+}
+
+void run_watch_store(struct run_watch *w, struct store *s) {
+  store_part(s, "run watch");
+  store_clock(&w->set.begun, s);
+  store_double(s, &w->start);
+  store_double(s, &w->time);
+  store_size(s, &w->steps);
+  store_size(s, &w->warnings);
+  store_double(s, &w->radius);
+  store_double(s, &w->radius_largest);
+  store_size(s, &w->stages);
+  if (w->pace.limited)
+    store_pace(&w->pace, s);
+  store_plain(s, &w->energy, sizeof w->energy);
 }

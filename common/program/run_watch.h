@@ -54,6 +54,9 @@ void run_watch_tell_energy(struct run_watch *w);
 /* The share of the energy that has no source, as of the last call. */
 double run_watch_energy_share(const struct run_watch *w);
 
+/* Its memory (platform/store.h), and the time that the run has taken. */
+void run_watch_store(struct run_watch *w, struct store *s);
+
 /* A warning, counted. */
 void run_watch_say(struct run_watch *w, const char *format, ...)
     __attribute__((format(printf, 2, 3)));

@@ -161,3 +161,9 @@ int control_predictive_alloc(gsl_odeiv2_control **out, double abstol,
   *out = c;
   return GSL_SUCCESS;
 }
+
+void control_predictive_store(gsl_odeiv2_control *c, struct store *s) {
+  struct predictive_state *p = c->state;
+  store_part(s, "predictive control");
+  store_plain(s, &p->steps, sizeof p->steps);
+}

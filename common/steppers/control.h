@@ -4,6 +4,7 @@
 #define CONTROL_H
 
 #include <gsl/gsl_odeiv2.h>
+#include "platform/store.h"
 
 /* Error per unit step: a step is accepted when 3 |E| / h < delta, with E the
    embedded error estimate of every component as it comes, in m, m/s and rad/s
@@ -22,5 +23,8 @@ int control_paper_alloc(gsl_odeiv2_control **out, double delta);
    one is positive, GSL_ENOMEM. Tested in tests/test_steppers.c. */
 int control_predictive_alloc(gsl_odeiv2_control **out, double abstol,
                              double reltol, const double *scale, size_t dim);
+
+/* Its memory (platform/store.h). */
+void control_predictive_store(gsl_odeiv2_control *c, struct store *s);
 
 #endif

@@ -58,7 +58,8 @@ const struct integrate_control integrate_controls[] = {
     [PREDICTIVE] = {.name = "predictive",
                     .help = "the same, the next step from the last two errors",
                     .tol = 5e-4,
-                    .alloc = predictive_alloc},
+                    .alloc = predictive_alloc,
+                    .store = control_predictive_store},
     [LOCAL] = {.name = "local",
                .help = "each sphere's own step, for multirate",
                .tol = 2e-3},
@@ -111,7 +112,8 @@ const struct integrate_method integrate_methods[] = {
      .estimates = true,
      .fixed = true,
      .adapts = true,
-     .prepare = prepare_rkc},
+     .prepare = prepare_rkc,
+     .store = rkc_store},
     {.name = "multirate",
      .help = "rkc with a step for each sphere",
      .control = &integrate_controls[LOCAL],
@@ -131,7 +133,8 @@ const struct integrate_method integrate_methods[] = {
      .control = &integrate_controls[PAPER],
      .estimates = true,
      .jacobian = true,
-     .adapts = true},
+     .adapts = true,
+     .opaque = true},
     {0}};
 
 const struct integrate_method *integrate_method(const char *name) {
@@ -154,6 +157,8 @@ struct integrator {
       driver; /* of GSL's struct, so that msbdf finds its control */
   gsl_odeiv2_step *step;
   gsl_odeiv2_control *control; /* NULL: fixed step */
+  const struct integrate_method *method;
+  const struct integrate_control *controls; /* of which control is one */
   gsl_odeiv2_evolve *evolve;
   double (*step_limit)(const double y[], const double dydt[], void *params);
   double hmax, fixed, stop, h;
@@ -258,9 +263,10 @@ int integrate_alloc(struct integrator **out, const struct integrate_options *o,
   it->step = gsl_odeiv2_step_alloc(*m->type, dim);
   it->evolve = gsl_odeiv2_evolve_alloc(dim);
   int status = it->step && it->evolve ? GSL_SUCCESS : GSL_ENOMEM;
+  it->method = m;
+  it->controls = integrate_control(o->control);
   if (status == GSL_SUCCESS && !(o->step > 0))
-    status = integrate_control(o->control)
-                 ->alloc(&it->control, o, problem->scale, dim);
+    status = it->controls->alloc(&it->control, o, problem->scale, dim);
   if (status != GSL_SUCCESS) {
     integrate_free(it);
     return status;
@@ -425,4 +431,41 @@ int integrate_at(const struct integrator *it, double t, double y[]) {
   if (it->engine)
     it->engine->at(it->own, t, y);
   return GSL_SUCCESS;
+}
+
+/* Of GSL's evolve: the rates at the end of a step are those at the start of the
+   next. */
+static void store_evolve(gsl_odeiv2_evolve *e, struct store *s) {
+  size_t count = e->count, failed = e->failed_steps;
+  store_size(s, &count);
+  store_size(s, &failed);
+  store_double(s, &e->last_step);
+  store_doubles(s, e->dydt_out, e->dimension);
+  e->count = count;
+  e->failed_steps = failed;
+}
+
+void integrate_store(struct integrator *it, struct store *s) {
+  store_part(s, "integrator");
+  store_double(s, &it->stop);
+  store_size(s, &it->counts.accepted);
+  store_size(s, &it->counts.rejected);
+  if (it->engine) {
+    it->engine->store(it->own, s);
+    it->now = it->engine->view(it->own);
+    return;
+  }
+  const size_t dim = it->system.dimension;
+  if (it->method->opaque)
+    store_fail(s, GSL_EINVAL);
+  store_double(s, &it->now.t);
+  store_double(s, &it->now.last_step);
+  store_double(s, &it->h);
+  store_doubles(s, it->y, dim);
+  store_doubles(s, it->rate, dim);
+  store_evolve(it->evolve, s);
+  if (it->method->store)
+    it->method->store(it->step, s);
+  if (it->control && it->controls->store)
+    it->controls->store(it->control, s);
 }

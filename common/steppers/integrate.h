@@ -8,6 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <gsl/gsl_odeiv2.h>
+#include "platform/store.h"
 #include "steppers/rkc.h"
 #include "steppers/stage.h"
 #include "steppers/stiffness.h"
@@ -32,6 +33,8 @@ struct integrate_control {
   /* NULL: what a problem's own method does by itself */
   int (*alloc)(gsl_odeiv2_control **out, const struct integrate_options *o,
                const double *scale, size_t dim);
+  /* Its memory (platform/store.h); NULL: it has none. */
+  void (*store)(gsl_odeiv2_control *c, struct store *s);
 };
 
 struct integrate_problem;
@@ -47,8 +50,11 @@ struct integrate_method {
   bool layout;    /* needs to know the rows' positions */
   bool adapts;    /* to stiffness: it has no limit of stability */
   bool half;      /* the derivative it hands on is that of the half step */
+  bool opaque;    /* its memory cannot be stored */
   /* Tells a new step of the problem, or NULL. */
   void (*prepare)(gsl_odeiv2_step *s, const struct integrate_problem *p);
+  /* Its memory (platform/store.h); NULL: it has none, or it is opaque. */
+  void (*store)(gsl_odeiv2_step *step, struct store *s);
 };
 
 /* All of them; the last has no name. */
@@ -88,6 +94,8 @@ struct integrate_engine {
   /* y is an interpolation over the last step; puts in what the method knows
      more precisely. */
   void (*at)(const void *engine, double t, double y[]);
+  /* Its memory (platform/store.h). */
+  void (*store)(void *engine, struct store *s);
 };
 
 struct integrate_problem {
@@ -155,5 +163,12 @@ struct rkc_report integrate_rkc_report(const struct integrator *it);
    several where the problem's own method divided the step. Before the first
    step only the start is known. GSL_EDOM outside. */
 int integrate_at(const struct integrator *it, double t, double y[]);
+
+/* All that the next steps follow from (platform/store.h): taken out by an
+   integrator of the same problem and options, whatever its start, the steps are
+   the same to the last bit. What was within the last step is not kept. GSL's
+   own right-hand side is the caller's to store. Not for a method that is opaque
+   (GSL_EINVAL). Tested in tests/test_store.c. */
+void integrate_store(struct integrator *it, struct store *s);
 
 #endif

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
+#include "steppers/power_store.h"
 #include "steppers/step_type.h"
 
 struct state {
@@ -90,4 +91,14 @@ void rkc_set_system(gsl_odeiv2_step *s, stage_function *stage, int threads,
   state->threads = GSL_MAX(threads, 1);
   for (size_t i = 0; i < state->dim; i++)
     state->numbers[state->dim + i] = scale ? 1 / scale[i] : 1;
+}
+
+void rkc_store(gsl_odeiv2_step *stepper, struct store *s) {
+  struct state *state = stepper->state;
+  struct rkc_step *step = &state->step;
+  store_part(s, "rkc");
+  power_store(&step->power, state->dim, s);
+  store_size(s, &step->steps);
+  store_double(s, &step->last_start);
+  store_plain(s, &step->report, sizeof step->report);
 }

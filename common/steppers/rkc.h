@@ -14,6 +14,7 @@
 #define RKC_H
 
 #include <gsl/gsl_odeiv2.h>
+#include "platform/store.h"
 #include "steppers/rkc_step.h"
 
 extern const gsl_odeiv2_step_type *const rkc;
@@ -29,5 +30,8 @@ struct rkc_report rkc_report(const gsl_odeiv2_step *s);
    several kinds have lengths only in their units. */
 void rkc_set_system(gsl_odeiv2_step *s, stage_function *stage, int threads,
                     const double *scale);
+
+/* Its memory (platform/store.h). */
+void rkc_store(gsl_odeiv2_step *stepper, struct store *s);
 
 #endif

@@ -91,7 +91,7 @@ static void scatter(struct stiffness *s) {
 }
 
 int stiffness_alloc(struct stiffness **out, size_t dim) {
-  struct stiffness *s = malloc(sizeof *s + 4 * dim * sizeof(double));
+  struct stiffness *s = calloc(1, sizeof *s + 4 * dim * sizeof(double));
   if (!s)
     return GSL_ENOMEM;
   s->dim = dim;
@@ -176,4 +176,10 @@ int stiffness_estimate(struct stiffness *s, const gsl_odeiv2_system *sys,
   }
   *mode = found;
   return GSL_SUCCESS;
+}
+
+void stiffness_store(struct stiffness *f, struct store *s) {
+  store_part(s, "stiffness");
+  store_doubles(s, f->before, f->dim);
+  store_doubles(s, f->now, f->dim);
 }

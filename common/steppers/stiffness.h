@@ -8,6 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <gsl/gsl_odeiv2.h>
+#include "platform/store.h"
 
 /* y' = lambda y, on which stability is tested, as a right-hand side of two real
    unknowns; params: two doubles, the parts of lambda. */
@@ -47,6 +48,8 @@ struct stiffness;
 /* The dominant eigenvalue of df/dy, followed along a trajectory. GSL_SUCCESS,
    GSL_ENOMEM. One at a time per thread. */
 int stiffness_alloc(struct stiffness **out, size_t dim);
+/* The directions that it goes on from (platform/store.h). */
+void stiffness_store(struct stiffness *f, struct store *s);
 void stiffness_free(struct stiffness *s);
 
 struct stiffness_mode {
