@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The bed of 200 spheres in other codes: the same start, box, mass, gravity and
-# end time, their own contact laws; CPU time and volume fraction side by side.
+# A bed in other codes: the same start, box, mass, gravity and end time, their
+# own contact laws; CPU time and volume fraction side by side.
 #
 #   B=build SEEDS="1 2 3" STEP=1 plots/bench/peers/peers.sh > table.tsv
 #
@@ -9,6 +9,10 @@
 # SEEDS  seeds of the start
 # TIME   end of the run, s
 # STEP   factor on the steps of the other codes, to see what they hide
+# COUNT  spheres
+# BASE   width of the box (m)
+# ROWS   what to run, a line for each: CODE CONTACT FRICTION K, or settle MODEL
+#        FRICTION - OPTION...
 #
 # A code that is not installed is left out with a line on standard error.
 # A speed without its fraction means nothing: the laws differ. Here e = 0.4 and
@@ -20,6 +24,16 @@ B=${B:-build}
 SEEDS=${SEEDS:-1 2 3}
 STEP=${STEP:-1}
 T=${TIME:-8}
+COUNT=${COUNT:-200}
+BASE=${BASE:-1}
+ROWS=${ROWS:-$(for code in lammps liggghts; do
+  for case in 'hooke 0.2 1e4' 'hooke 0.2 1e5' 'hertz 0.2 1e5' 'hooke 0 1e4' \
+    'hooke 0 1e5'; do
+    echo "$code $case"
+  done
+done
+echo 'settle rotation 0.2 -'
+echo 'settle basic 0 -')}
 here=$(cd "$(dirname "$0")" && pwd)
 bin=$(cd "$B" 2> /dev/null && pwd) || bin=$B
 for program in settle analyze; do
@@ -38,7 +52,7 @@ failed=0
 # The box is 6 m high: the start reaches 4.3 m. LIGGGHTS needs the second type
 # for the walls.
 to_data() {
-  awk -F '\t' -v types="$1" '
+  awk -F '\t' -v types="$1" -v width="$BASE" '
     /^#/ || !NF { next }
     !named { for (i = 1; i <= NF; i++) c[$i] = i; named = 1; next }
     {
@@ -49,14 +63,14 @@ to_data() {
     }
     END {
       printf "start\n\n%d atoms\n%d atom types\n\n", n, types
-      printf "0 1 xlo xhi\n0 1 ylo yhi\n0 6 zlo zhi\n\nAtoms\n\n"
+      printf "0 %s xlo xhi\n0 %s ylo yhi\n0 6 zlo zhi\n\nAtoms\n\n", width, width
       for (i = 1; i <= n; i++) print line[i]
     }'
 }
 
 # The last frame of a dump as a bed file.
 to_bed() {
-  awk -v program="$1" -v t="$T" '
+  awk -v program="$1" -v t="$T" -v width="$BASE" '
     BEGIN {
       OFS = "\t"
       print "# format=bed-1"
@@ -64,9 +78,9 @@ to_bed() {
       print "# t=" t
       print "# wall=0 0 0 0 0 -1"
       print "# wall=0 0 0 -1 0 0"
-      print "# wall=1 0 0 1 0 0"
+      print "# wall=" width " 0 0 1 0 0"
       print "# wall=0 0 0 0 -1 0"
-      print "# wall=0 1 0 0 1 0"
+      print "# wall=0 " width " 0 0 1 0"
       print "id", "x", "y", "z", "r", "m", "vx", "vy", "vz", "wx", "wy", "wz"
     }
     /^ITEM:/ { atoms = /^ITEM: ATOMS/; if (atoms) n = 0; next }
@@ -184,7 +198,7 @@ run_peer() {
   local code=$1 program=$2 seed=$3 dt=$4 steps=$5
   local types=1
   [ "$code" = lammps ] || types=2
-  "$bin/settle" --seed "$seed" --time 0 --quiet | to_data $types > "$tmp/start"
+  "$bin/settle" "${start[@]}" --seed "$seed" --time 0 --quiet | to_data $types > "$tmp/start"
   rm -f "$tmp/end"
   # The directory because LIGGGHTS writes a log whatever it is told.
   if ! (
@@ -192,7 +206,7 @@ run_peer() {
     TIMEFORMAT='%U %S'
     { time "$program" -in "$here/in.$code" -log none -screen "$tmp/output" \
       -var start "$tmp/start" -var law "$tmp/law" -var end "$tmp/end" \
-      -var dt "$dt" -var steps "$steps" > /dev/null 2> "$tmp/errors"
+      -var dt "$dt" -var steps "$steps" -var width "$BASE" > /dev/null 2> "$tmp/errors"
     } 2> "$tmp/cpu"
   ) || [ ! -s "$tmp/end" ]; then
     return 1
@@ -200,24 +214,25 @@ run_peer() {
   to_bed "$code" < "$tmp/end" > "$tmp/bed"
 }
 
-# The bed in $tmp/bed, checked: 200 spheres, none outside the walls.
+# The bed in $tmp/bed, checked: no sphere is lost, none outside the walls.
 measure() {
   local cpu n outside speed
   cpu=$(awk '{ print $1 + $2 }' "$tmp/cpu")
-  "$bin/analyze" "$tmp/bed" > "$tmp/fraction" || return 1
-  awk -F '\t' '
+  "$bin/analyze" --box "0,$BASE,0,$BASE,0,1" "$tmp/bed" > "$tmp/fraction" ||
+    return 1
+  awk -F '\t' -v width="$BASE" '
     /^#/ || !NF { next }
     !named { for (i = 1; i <= NF; i++) c[$i] = i; named = 1; next }
     {
       n++
       x = $c["x"]; y = $c["y"]; z = $c["z"]
-      outside += !(x > 0 && x < 1 && y > 0 && y < 1 && z > 0)
+      outside += !(x > 0 && x < width && y > 0 && y < width && z > 0)
       u = sqrt($c["vx"] ^ 2 + $c["vy"] ^ 2 + $c["vz"] ^ 2)
       if (u > speed) speed = u
     }
     END { print n, outside + 0, speed + 0 }' "$tmp/bed" > "$tmp/sanity"
   read -r n outside speed < "$tmp/sanity"
-  if [ "$n" -ne 200 ] || [ "$outside" -ne 0 ]; then
+  if [ "$n" -ne "$COUNT" ] || [ "$outside" -ne 0 ]; then
     echo "peers.sh: $n spheres, $outside of them outside the box" >&2
     return 1
   fi
@@ -243,49 +258,58 @@ row() {
     }' "$tmp/runs"
 }
 
-printf '%s\t' code contact friction 'k (N/m)' 'step (s)' steps seeds \
-  'CPU (s)' sum union 'standard error'
-printf '%s\n' 'largest speed (m/s)'
-
-for peer in 'lammps lmp' 'liggghts liggghts'; do
-  read -r code program <<< "$peer"
+# A row of another code: CODE CONTACT FRICTION K
+peer_row() {
+  local code=$1 contact=$2 mu=$3 k=$4 program=$1
+  [ "$code" = liggghts ] || program=lmp
   if ! command -v "$program" > /dev/null; then
-    echo "peers.sh: no $program: install the package $code (Debian, Ubuntu:" \
-      "apt-get install $code); left out" >&2
-    continue
+    [[ $missing == *$code* ]] ||
+      echo "peers.sh: no $program: install the package $code (Debian, Ubuntu:" \
+        "apt-get install $code); left out" >&2
+    missing+=" $code"
+    return
   fi
-  for case in 'hooke 0.2 1e4' 'hooke 0.2 1e5' 'hertz 0.2 1e5' \
-    'hooke 0 1e4' 'hooke 0 1e5'; do
-    read -r contact mu k <<< "$case"
-    write_law "$code" "$contact" "$mu" "$k" > "$tmp/steps"
-    read -r dt steps < "$tmp/steps"
-    : > "$tmp/runs"
-    for seed in $SEEDS; do
-      if ! run_peer "$code" "$program" "$seed" "$dt" "$steps" || ! measure; then
-        echo "peers.sh: $code $case seed $seed failed:" >&2
-        cat "$tmp/errors" "$tmp/output" 2> /dev/null | grep -a ERROR >&2 || true
-        failed=1
-        continue 2
-      fi
-    done
-    row "$code $contact $mu $k $(printf '%.3g' "$dt") $steps"
+  write_law "$code" "$contact" "$mu" "$k" > "$tmp/steps"
+  read -r dt steps < "$tmp/steps"
+  for seed in $SEEDS; do
+    if ! run_peer "$code" "$program" "$seed" "$dt" "$steps" || ! measure; then
+      echo "peers.sh: $* seed $seed failed:" >&2
+      cat "$tmp/errors" "$tmp/output" 2> /dev/null | grep -a ERROR >&2 || true
+      failed=1
+      return
+    fi
   done
-done
+  row "$code $contact $mu $k $(printf '%.3g' "$dt") $steps"
+}
 
-# The programs of this repository, as they are by default; the steps are those
-# of the last seed.
-for case in 'rotation 0.2' 'basic 0'; do
-  read -r model mu <<< "$case"
-  : > "$tmp/runs"
+# A row of settle: MODEL FRICTION - OPTION...; its steps are those of the last
+# seed.
+settle_row() {
+  local model=$1 mu=$2 method steps
+  shift 3
   for seed in $SEEDS; do
     TIMEFORMAT='%U %S'
-    { time "$bin/settle" --model "$model" --seed "$seed" --time "$T" --quiet \
-      --stats "$tmp/stats" > "$tmp/bed" 2> "$tmp/errors"; } 2> "$tmp/cpu" ||
-      { cat "$tmp/errors" >&2; exit 1; }
+    { time "$bin/settle" "${start[@]}" --model "$model" --seed "$seed" \
+      --time "$T" --quiet --stats "$tmp/stats" "$@" > "$tmp/bed" \
+      2> "$tmp/errors"; } 2> "$tmp/cpu" || { cat "$tmp/errors" >&2; exit 1; }
     measure
   done
   steps=$(awk -F '\t' '$1 == "steps_accepted" { print $2 }' "$tmp/stats")
   method=$(awk -F '\t' '$1 == "method" { print $2 }' "$tmp/stats")
   row "settle $model-$method $mu - adaptive $steps"
-done
+}
+
+start=(--count "$COUNT" --base "$BASE,$BASE")
+missing=
+printf '%s\t' code contact friction 'k (N/m)' 'step (s)' steps seeds \
+  'CPU (s)' sum union 'standard error'
+printf '%s\n' 'largest speed (m/s)'
+while read -r code what; do
+  : > "$tmp/runs"
+  # shellcheck disable=SC2086 # words
+  case $code in
+    settle) settle_row $what ;;
+    *) peer_row $code $what ;;
+  esac
+done <<< "$ROWS"
 exit $failed
