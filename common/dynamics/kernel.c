@@ -406,6 +406,21 @@ INLINE void scatter_pairs(const struct block *b, const uint32_t *i,
   }
 }
 
+INLINE void scatter_walls(const struct block *b, const uint32_t *row,
+                          size_t count, const struct contact_part *part,
+                          const struct contact_features has) {
+  for (size_t c = 0; c < count; c += 4) {
+    vec4 f[4], t[4];
+    unload_four(b, c, f, t, has);
+    for (size_t l = 0; l < 4 && c + l < count; l++) {
+      double *sum = sum_of(part, row[c + l]);
+      vec4_store(vec4_load(sum) + f[l], sum);
+      if (has.rotation)
+        vec4_store(vec4_load(sum + 4) + t[l], sum + 4);
+    }
+  }
+}
+
 INLINE void add_pairs(const struct contact_list *list, const double *y,
                       const uint32_t *i, const uint32_t *j, size_t count,
                       const struct contact_part *part,
@@ -430,52 +445,66 @@ INLINE void add_walls(const struct contact_list *list, const double *y,
     const size_t some = end - w < BLOCK ? end - w : BLOCK;
     load_walls(list, y, w, some, &b, has);
     evaluate(&list->law, pad(&b, some, has), &b, has);
-    for (size_t c = 0; c < some; c++) {
-      double *sum = sum_of(part, list->wall_row[w + c]);
-      sum[0] += b.fx[c];
-      sum[1] += b.fy[c];
-      sum[2] += b.fz[c];
-      if (has.rotation) {
-        sum[4] += b.tx[c];
-        sum[5] += b.ty[c];
-        sum[6] += b.tz[c];
-      }
-    }
+    scatter_walls(&b, list->wall_row + w, some, part, has);
   }
 }
 
-/* (2.13)-(2.15): torque = -r n x f, I = 2 m r^2 / 5 */
+/* (2.13)-(2.15): torque = -r n x f, I = 2 m r^2 / 5. The rates of a row that
+   spins, stored four by four from the first on, each over what the one before
+   wrote too much; sum for what must be finite, free spins too. */
+INLINE vec4 finish_row(const double *state, double *rate, const double *sum,
+                       vec4 gravity, double push, double turn,
+                       const double *more) {
+  const vec4 v = vec4_load(state + ROW_V);
+  vec4 a = gravity + push * vec4_load(sum), b = turn * vec4_load(sum + 4);
+  if (more) {
+    a += vec4_load(more + ROW_V);
+    b += (vec4){more[ROW_W], more[ROW_W + 1], more[ROW_W + 2], 0};
+  }
+  vec4_store(v, rate);
+  vec4_store(a, rate + ROW_V);
+  rate[ROW_W] = b[0];
+  rate[ROW_W + 1] = b[1];
+  rate[ROW_W + 2] = b[2];
+  /* the last of v is a spin, and that of a one too where more is */
+  return v + a + b + 0 * vec4_load(state + ROW_W - 1);
+}
+
+INLINE double finish_plain(const double *state, double *rate,
+                           const double *sum, const double gravity[3],
+                           double push, const double *more) {
+  double checksum = 0;
+  for (int c = 0; c < 3; c++) {
+    rate[c] = state[ROW_V + c];
+    rate[ROW_V + c] = gravity[c] + push * sum[c];
+    if (more)
+      rate[ROW_V + c] += more[ROW_V + c];
+    checksum += rate[c] + rate[ROW_V + c];
+  }
+  return checksum;
+}
+
 INLINE bool finish(const struct contact_list *list, const double *y,
                    double *rates, size_t from, size_t to,
                    const struct contact_part *part,
                    const struct contact_features has, const bool frozen) {
   const size_t stride = has.rotation ? ROW_SPIN : ROW_PLAIN;
-  double checksum = 0;
+  const double *g = list->gravity;
+  const vec4 gravity = {g[0], g[1], g[2], 0};
+  vec4 checksum = {0};
   for (size_t i = from; i < to; i++) {
     const double *state = y + i * stride;
     double *rate = rates + (i - from) * stride, *sum = sum_of(part, i);
     const double *more = frozen ? list->frozen + i * stride : NULL;
-    const double push = list->push[i];
-    for (int c = 0; c < 3; c++) {
-      rate[c] = state[ROW_V + c];
-      rate[ROW_V + c] = list->gravity[c] + push * sum[c];
-      if (frozen)
-        rate[ROW_V + c] += more[ROW_V + c];
-      checksum += rate[c] + rate[ROW_V + c];
-    }
-    if (has.rotation) {
-      const double turn = list->turn[i];
-      for (int c = 0; c < 3; c++) {
-        rate[ROW_W + c] = turn * sum[4 + c];
-        if (frozen)
-          rate[ROW_W + c] += more[ROW_W + c];
-        checksum += rate[ROW_W + c] + 0 * state[ROW_W + c]; /* free spins too */
-      }
-    }
-    for (int c = 0; c < CONTACT_SUM; c++)
-      sum[c] = 0;
+    if (has.rotation)
+      checksum += finish_row(state, rate, sum, gravity, list->push[i],
+                             list->turn[i], more);
+    else
+      checksum[0] += finish_plain(state, rate, sum, g, list->push[i], more);
+    vec4_store((vec4){0}, sum);
+    vec4_store((vec4){0}, sum + 4);
   }
-  return isfinite(checksum);
+  return isfinite(checksum[0] + checksum[1] + checksum[2] + checksum[3]);
 }
 
 /* One specialised loop for each combination of features. */

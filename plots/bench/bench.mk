@@ -57,7 +57,49 @@ $(BENCH)/peers.tsv: plots/bench/peers/peers.sh | $(B)/settle $(B)/analyze
 	B=$(B) $(if $(QUICK),$(PEERS_QUICK)) $< > $@
 $(F)/peers.md: $(BENCH)/peers.tsv
 
+# The same start in each code and by our methods, at the same depth: a row for
+# each number of spheres. Base: its width in m. Codes that are not installed have
+# no rows. Beyond 2,000 spheres some take minutes.
+GROWTH_COUNTS := $(if $(QUICK),20 40,200 2000 20000)
+GROWTH_20 := 0.5
+GROWTH_40 := 0.75
+GROWTH_200 := 1
+GROWTH_2000 := 3.16
+GROWTH_20000 := 10
+GROWTH_SEEDS_200 := 1 2
+GROWTH_ROWS := multirate rkc verlet lammps-1e4 lammps-1e5 liggghts-1e4 \
+  liggghts-1e5
+GROWTH_multirate := settle rotation 0.2 - --method multirate
+GROWTH_rkc := settle rotation 0.2 - --method rkc
+GROWTH_verlet := settle rotation 0.2 - --method verlet --step 2.5e-5
+GROWTH_lammps-1e4 := lammps hooke 0.2 1e4
+GROWTH_lammps-1e5 := lammps hooke 0.2 1e5
+GROWTH_liggghts-1e4 := liggghts hooke 0.2 1e4
+GROWTH_liggghts-1e5 := liggghts hooke 0.2 1e5
+# $(call growth_run,COUNT,ROW)
+define growth_run
+$(BENCH)/growth/$(1)-$(2).tsv: | $(B)/settle $(B)/analyze
+	@mkdir -p $$(@D)
+	B=$(B) COUNT=$(1) BASE=$(GROWTH_$(1)) SEEDS='$(or $(GROWTH_SEEDS_$(1)),1)' \
+	  $(if $(QUICK),TIME=0.3) ROWS='$(GROWTH_$(2))' plots/bench/peers/peers.sh > $$@
+endef
+# not those that would take over five minutes each
+GROWTH_LONG := $(if $(QUICK),,20000-rkc 20000-verlet)
+GROWTH_NAMES := $(filter-out $(GROWTH_LONG),\
+  $(foreach n,$(GROWTH_COUNTS),$(GROWTH_ROWS:%=$(n)-%)))
+$(foreach n,$(GROWTH_COUNTS),$(foreach r,$(GROWTH_ROWS),\
+  $(eval $(call growth_run,$(n),$(r)))))
+
+growth: $(F)/growth.md $(F)/growth.svg ## CPU time against the number of spheres, beside LAMMPS and LIGGGHTS
+	@cat $(F)/growth.md
+$(BENCH)/growth.tsv: plots/bench/growth.awk plots/bench/bench.mk \
+  $(GROWTH_NAMES:%=$(BENCH)/growth/%.tsv)
+	awk -f $< $(filter %.tsv,$^) > $@
+$(F)/growth.md: $(BENCH)/growth.tsv
+$(F)/growth.svg: plots/bench/growth.gp plots/style.gp $(BENCH)/growth.tsv
+	$(draw)
+
 bench-clean: ## remove the data of the benchmarks
 	rm -rf $(BENCH)
 
-.PHONY: bench bench-peers bench-clean
+.PHONY: bench bench-peers growth bench-clean
