@@ -174,36 +174,76 @@ INLINE void normalise(const struct contact_list *list, size_t count,
 }
 
 /* A wall is a body at rest with the normal -n_k, (2.5) and (2.10). */
+INLINE void load_wall(const struct contact_list *list, const double *y,
+                      size_t k, size_t c, struct block *b,
+                      const struct contact_features has) {
+  const size_t stride = has.rotation ? ROW_SPIN : ROW_PLAIN;
+  const size_t i = list->wall_row[k];
+  const struct wall *w = &list->walls[list->wall_id[k]];
+  const double *p = y + i * stride;
+  const double r = list->radius[i];
+  b->nx[c] = -w->normal[0];
+  b->ny[c] = -w->normal[1];
+  b->nz[c] = -w->normal[2];
+  b->gap[c] = wall_distance(w, p) - r;
+  b->vx[c] = p[ROW_V];
+  b->vy[c] = p[ROW_V + 1];
+  b->vz[c] = p[ROW_V + 2];
+  if (has.rotation) {
+    b->sx[c] = r * p[ROW_W];
+    b->sy[c] = r * p[ROW_W + 1];
+    b->sz[c] = r * p[ROW_W + 2];
+  }
+  if (has_sides(has)) {
+    b->inverse_i[c] = 1 / r;
+    b->inverse_j[c] = 0;
+    b->reduced[c] = r;
+    b->px[c] = b->qx[c] = p[ROW_W];
+    b->py[c] = b->qy[c] = p[ROW_W + 1];
+    b->pz[c] = b->qz[c] = p[ROW_W + 2];
+  }
+}
+
+/* The same four at a time, for equal spheres that spin; rows, points and normals
+   are turned into columns. */
+INLINE void load_four_walls(const struct contact_list *list, const double *y,
+                            size_t k, size_t c, struct block *b) {
+  const double r = list->radius[0];
+  vec4 u[4], w[4], n[4], d[4];
+  for (size_t l = 0; l < 4; l++) {
+    const double *p = y + list->wall_row[k + l] * ROW_SPIN;
+    const struct wall *wall = &list->walls[list->wall_id[k + l]];
+    const double *at = wall->point, *normal = wall->normal;
+    u[l] = vec4_load(p);
+    w[l] = vec4_load(p + ROW_V + 1);
+    b->sz[c + l] = r * p[ROW_W + 2];
+    n[l] = (vec4){normal[0], normal[1], normal[2], 0};
+    d[l] = (vec4){at[0], at[1], at[2], 0} - u[l];
+  }
+  transpose(u);
+  transpose(w);
+  transpose(n);
+  transpose(d);
+  vec4_store(-n[0], b->nx + c);
+  vec4_store(-n[1], b->ny + c);
+  vec4_store(-n[2], b->nz + c);
+  vec4_store(d[0] * n[0] + d[1] * n[1] + d[2] * n[2] - r, b->gap + c);
+  vec4_store(u[3], b->vx + c);
+  vec4_store(w[0], b->vy + c);
+  vec4_store(w[1], b->vz + c);
+  vec4_store(r * w[2], b->sx + c);
+  vec4_store(r * w[3], b->sy + c);
+}
+
 INLINE void load_walls(const struct contact_list *list, const double *y,
                        size_t from, size_t count, struct block *b,
                        const struct contact_features has) {
-  const size_t stride = has.rotation ? ROW_SPIN : ROW_PLAIN;
-  for (size_t c = 0; c < count; c++) {
-    const size_t i = list->wall_row[from + c];
-    const struct wall *w = &list->walls[list->wall_id[from + c]];
-    const double *p = y + i * stride;
-    const double r = list->radius[i];
-    b->nx[c] = -w->normal[0];
-    b->ny[c] = -w->normal[1];
-    b->nz[c] = -w->normal[2];
-    b->gap[c] = wall_distance(w, p) - r;
-    b->vx[c] = p[ROW_V];
-    b->vy[c] = p[ROW_V + 1];
-    b->vz[c] = p[ROW_V + 2];
-    if (has.rotation) {
-      b->sx[c] = r * p[ROW_W];
-      b->sy[c] = r * p[ROW_W + 1];
-      b->sz[c] = r * p[ROW_W + 2];
-    }
-    if (has_sides(has)) {
-      b->inverse_i[c] = 1 / r;
-      b->inverse_j[c] = 0;
-      b->reduced[c] = r;
-      b->px[c] = b->qx[c] = p[ROW_W];
-      b->py[c] = b->qy[c] = p[ROW_W + 1];
-      b->pz[c] = b->qz[c] = p[ROW_W + 2];
-    }
-  }
+  size_t c = 0;
+  if (WIDE && has.uniform && has.rotation)
+    for (; c + 4 <= count; c += 4)
+      load_four_walls(list, y, from + c, c, b);
+  for (; c < count; c++)
+    load_wall(list, y, from + c, c, b, has);
 }
 
 /* Fills a block up to whole vectors with idle contacts, so that a contact is
