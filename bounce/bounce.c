@@ -105,7 +105,7 @@ static int step(struct bounce *b) {
   if (run_watch_wants_mode(b->watch))
     run_watch_mode(b->watch, drop_mode(&b->drop, y));
   run_watch_step(b->watch);
-  /* so much deeper takes e times the energy there is */
+  /* 1/kappa deeper takes e times the energy there is */
   if (y[0] < b->deepest - 1 / b->drop.law.kappa) {
     char what[120];
     snprintf(what, sizeof what,

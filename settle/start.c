@@ -231,7 +231,7 @@ static void make_spheres(struct settings *s, struct option_spec *options,
   sizes_masses(b->n, b->r, s->fill.radius, s->fill.mass, b->m);
 }
 
-/* What multirate cannot do asks for rkc. */
+/* Settings beyond multirate ask for rkc. */
 static const char *usual_method(const struct settings *s) {
   const struct integrate_options *o = &s->integrate;
   const struct integrate_method *usual = integrate_method("multirate");

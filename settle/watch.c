@@ -124,7 +124,7 @@ static void check_cut(struct watch *w) {
    somebody who asks for the last digit. */
 enum { BED_LEAST = 50, FINE = 10 };
 
-/* What the union of the bed is too large by, as docs/softness.md has it. */
+/* Excess of the union of the bed, as docs/softness.md has it. */
 static double softness_of(const struct watch *w) {
   return softness_error(w->set->scene.law.kappa * bed_mean(w->bed, w->bed->r));
 }

@@ -41,7 +41,7 @@ static double stages_of(const struct level *l, double h) {
   return sqrt(1 + 1.54 * h * l->power.radius);
 }
 
-/* The step of at most so much that makes the work least, of the level and of
+/* The step, at most `most` long, that makes the work least, of the level and of
    the rows that want shorter ones. Rows are sorted into bins by the step they
    want; the step is the lower end of one of them. */
 static double choose(const struct lane *lane, size_t depth, double most) {

@@ -61,7 +61,7 @@ static inline struct level *lanes_bed(const struct lanes *all) {
   return all->lane[0].level[0];
 }
 
-/* The step of all spheres of at most so much that makes the work least. */
+/* The step of all spheres, at most `most` long, that makes the work least. */
 double lanes_choose(const struct lanes *all, double most);
 
 /* One accepted step of all spheres from t, of at most *h, and how long it was.

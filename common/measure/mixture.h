@@ -7,8 +7,8 @@
 
 #include "measure/network.h"
 
-/* Classes at most, and so many without edges given: each radius its own if
-   there are no more than MIXTURE_MOST, else MIXTURE_PARTS of equal volume. */
+/* The most classes, and their number without edges given: each radius its own
+   if there are no more than MIXTURE_MOST, else MIXTURE_PARTS of equal volume. */
 enum { MIXTURE_MOST = 9, MIXTURE_PARTS = 4 };
 
 struct mixture_class {

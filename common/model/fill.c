@@ -30,7 +30,7 @@ static size_t parts_of(double largest, double radius) {
 
 /* The place of the grid that spheres of one size are being put into. */
 struct place {
-  size_t number, used, room; /* parts used, of so many */
+  size_t number, used, room; /* parts used, and parts that fit */
 };
 
 /* The number of the place that has the next part, and which it is. */

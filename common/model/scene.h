@@ -53,7 +53,7 @@ struct scene scene_default(void);
    friction nothing turns. */
 bool scene_has_friction(const struct scene *s);
 bool scene_has_rotation(const struct scene *s);
-/* What only turning spheres have. */
+/* Features that only turning spheres have. */
 bool scene_has_rolling(const struct scene *s);
 bool scene_has_lever(const struct scene *s);
 

@@ -40,7 +40,7 @@ double softness_lmax(double kappa);
 double softness_vmin(double distance, double time);
 double softness_creep(double vmin, double time);
 
-/* What to expect of the union of a bed, with the figures of docs/softness.md:
+/* Expected errors of the union of a bed, with the figures of docs/softness.md:
    how much denser than with hard contacts, by kappa times the radius; and how
    much denser than without creep, by the distance that a contact creeps, in
    radii. */

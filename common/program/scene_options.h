@@ -22,7 +22,7 @@ struct scene_words scene_words_default(void);
 /* For option wall: appends {px, py, pz, nx, ny, nz} to a struct scene. */
 int scene_wall_option(const struct option_list *v, void *scene);
 
-/* What --help says of lever's default. */
+/* Text of --help for lever's default. */
 void scene_lever_unset(char *text, size_t size);
 
 /* Puts the words into the scene and checks it. NULL, or what is wrong, a

@@ -13,7 +13,7 @@
 const char *const size_shares[] = {
     [SHARES_NUMBER] = "number", [SHARES_VOLUME] = "volume", NULL};
 
-/* What --sizes may begin with. */
+/* The words that --sizes may begin with. */
 static const struct form {
   const char *name, *rest;
   enum sizes_kind kind;

@@ -5,7 +5,7 @@
 #define HERMITE_H
 
 /* At the share s of a step of length h: 1 - end of the value at the start, end
-   of that at the end, and so much of each slope. */
+   of that at the end, and end_slope and start_slope of the slopes. */
 struct hermite {
   double end, start_slope, end_slope;
 };
