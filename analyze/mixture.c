@@ -7,6 +7,7 @@
 #include <gsl/gsl_math.h>
 #include "geometry/box.h"
 #include "geometry/volume.h"
+#include "measure/close_packing.h"
 #include "measure/mixture.h"
 #include "program/shared_options.h"
 #include "tabulate.h"
@@ -16,6 +17,7 @@ struct set {
   struct option_list box, edges;
   double gap;
   size_t slabs;
+  bool close;
 };
 
 /* Volume of a class' clipped spheres in a box. x, r: room for all spheres. */
@@ -73,6 +75,27 @@ static void print_profile(struct table *table, const struct bed *b,
   }
 }
 
+/* Of the spheres that are looked at. room: as many radii. */
+static void print_close(struct tabulation *t, const struct bed *b,
+                        const bool *inside, double *room) {
+  double rods = GSL_NAN, deviation, skewness;
+  size_t n = 0;
+  for (size_t i = 0; i < b->n; i++)
+    if (inside[i])
+      room[n++] = b->r[i];
+  if (n)
+    frame_check(&t->frames, b, close_packing_rods(n, room, &rods));
+  close_packing_spread(n, room, &deviation, &skewness);
+  table_number(&t->table, b->t);
+  table_count(&t->table, n);
+  table_number(&t->table, deviation);
+  table_number(&t->table, skewness);
+  table_number(&t->table, rods);
+  table_number(&t->table,
+               n ? close_packing_spread_fraction(deviation, skewness) : rods);
+  table_end_row(&t->table);
+}
+
 /* A frame. */
 static void measure(struct tabulation *t, const struct set *set) {
   const struct bed *b = &t->bed;
@@ -96,7 +119,11 @@ static void measure(struct tabulation *t, const struct set *set) {
   network_mark(&w, set->gap, 0);
   mixture_measure(&m, b, inside, &w);
   double *room = measure_alloc(b->n, 4 * sizeof *room);
-  if (set->slabs) {
+  if (set->close) {
+    table_frame(&t->table, TABLE_ROWS,
+                "t\tspheres\tdeviation\tskewness\trods\tspread");
+    print_close(t, b, inside, room);
+  } else if (set->slabs) {
     table_frame(&t->table, TABLE_PARTS, "t\tz\tradius\tsum");
     print_profile(&t->table, b, &m, box, set->slabs, room);
   } else {
@@ -128,6 +155,8 @@ int verb_mixture(int argc, char **argv) {
       {.name = "profile", .type = OPTION_SIZE, .value = &set.slabs,
        .most = 1e6, .unit = "slabs of the box; 0: none",
        .help = "fraction of each class along z instead"},
+      {.name = "close", .type = OPTION_FLAG, .value = &set.close,
+       .help = "random close packing that others expect of the sizes instead"},
       MEAN_OPTION(means),
       FRAMES_OPTIONS(input),
       {0}};
@@ -151,12 +180,20 @@ int verb_mixture(int argc, char **argv) {
           "  z z_own z_walls  mean contacts of a sphere: all, with its own\n"
           "                   class, with walls\n"
           "--profile: t z radius sum, a row for each slab and class. An empty\n"
-          "line separates frames.",
+          "line separates frames.\n"
+          "--close: t spheres deviation skewness rods spread: of the radii, "
+          "the\n"
+          "standard deviation by the mean; what Farr and Groot (2009) expect "
+          "of\n"
+          "hard spheres of these radii without friction, and, for deviations\n"
+          "up to 0.4, Desmond and Weeks (2014).",
       .usage = "mixture [OPTION...] [FILE...]",
       .example = "settle --sizes 'mix:0.1*0.3,0.05*0.7' | analyze mixture",
       .options = options};
   const int operand = options_parse(&program, argc, argv);
   box_check(&set.box);
+  if (set.close && set.slabs)
+    die(EXIT_USAGE, "expected one of --close and --profile");
   for (size_t k = 0; k < set.edges.count; k++)
     if (!(set.edges.at[k] > (k ? set.edges.at[k - 1] : 0)))
       die(EXIT_USAGE, "--classes: expected ascending radii above 0");

@@ -4,6 +4,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include "check.h"
+#include "measure/close_packing.h"
 #include "measure/mixture.h"
 
 static struct bed new_bed(size_t n, const double r[], const double z[]) {
@@ -134,11 +135,64 @@ static void test_contacts(void) {
   bed_free(&b);
 }
 
+/* Rods: the published figure of equal spheres; no unit matters, and neither the
+   order nor copies of the spheres; two sizes lie denser, the most near 70 % of
+   the volume large, and sizes that differ endlessly fill as spheres among
+   spheres: 1 - (1 - f)^2 at the most. */
+static void test_close(void) {
+  double r[1000], f, g;
+  for (size_t i = 0; i < 1000; i++)
+    r[i] = 0.1;
+  CHECK(close_packing_rods(1, r, &f) == GSL_SUCCESS);
+  CHECK_CLOSE(f, 0.6435, 5e-4);
+  CHECK(close_packing_rods(1000, r, &g) == GSL_SUCCESS);
+  CHECK_CLOSE(g, f, 1e-9);
+  for (size_t i = 0; i < 1000; i++)
+    r[i] = i % 3 ? 0x1p-4 : 0x1p-3;
+  CHECK(close_packing_rods(999, r, &f) == GSL_SUCCESS);
+  for (size_t i = 0; i < 999; i++)
+    r[i] = i < 333 ? 0x1p-13 : 0x1p-14;
+  CHECK(close_packing_rods(999, r, &g) == GSL_SUCCESS);
+  CHECK(f == g);
+  double best = 0, where = 0;
+  for (int q = 1; q < 20; q++) {
+    const double share = q / 20.;
+    /* n_large : n_small = share : (1 - share) 4^3 */
+    const double small = (1 - share) * 64;
+    size_t large = (size_t)(1000 * share / (share + small) + 0.5);
+    for (size_t i = 0; i < 1000; i++)
+      r[i] = i < large ? 0.4 : 0.1;
+    CHECK(close_packing_rods(1000, r, &f) == GSL_SUCCESS);
+    if (f > best) {
+      best = f;
+      where = share;
+    }
+  }
+  CHECK(best > 0.7 && best < 1 - gsl_pow_2(1 - 0.6435));
+  CHECK(where >= 0.6 && where <= 0.8);
+}
+
+/* By hand: radii 1, 1, 4 have the mean 2, the squares 1, 1, 4 about it, 2 on
+   the average, and the cubes -1, -1, 8, 2 on the average. */
+static void test_spread(void) {
+  const double r[] = {1, 1, 4}, equal[] = {0.1, 0.1, 0.1};
+  double d, s;
+  close_packing_spread(3, r, &d, &s);
+  CHECK_REL(d, M_SQRT2 / 2, 8 * DBL_EPSILON);
+  CHECK_REL(s, 2 / sqrt(8), 8 * DBL_EPSILON);
+  close_packing_spread(3, equal, &d, &s);
+  CHECK(d == 0 && s == 0);
+  CHECK(close_packing_spread_fraction(0, 0) == 0.634);
+  CHECK_REL(close_packing_spread_fraction(0.4, 1), 0.674032, 1e-9);
+}
+
 int main(void) {
   test_classes();
   test_parts();
   test_heights();
   test_segregation();
   test_contacts();
+  test_close();
+  test_spread();
   return check_done();
 }

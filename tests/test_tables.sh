@@ -13,7 +13,7 @@ cat "$T"/[123] >"$T/all"
 
 verbs=('fraction' 'fraction --slab 0.2' 'profile --points 5' 'contacts'
   'contacts --degrees' 'contacts --network --gap 0.01' 'rest' 'gr --bins 20'
-  'order' 'order --spheres' 'radius --report' 'mixture' 'mixture --profile 3')
+  'order' 'order --spheres' 'radius --report' 'mixture' 'mixture --profile 3' 'mixture --close')
 for verb in "${verbs[@]}"; do
   # several files: the rows of each, behind its name
   for f in 1 2 3; do
