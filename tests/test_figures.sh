@@ -51,7 +51,7 @@ while read -r target _; do
     check "make help: $target is neither in makes nor in others" \
       grep -q " $target " <<<"$others"
   fi
-done < <(make -s help)
+done < <(make -s --no-print-directory help)
 check 'all figures are in make help' test ${#targets[@]} = ${#makes[@]}
 
 quick() {

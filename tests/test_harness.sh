@@ -56,8 +56,8 @@ check 'two at a time' ends '2 passed, 0 failed' 0
 test_of loop ". '$PWD/tests/harness.sh'" 'for k in 1 2 3; do' \
   'check "in a loop" true' 'done' 'deep() { check "deep" test "$1"; }' \
   'deep 1' 'deep 2; deep 3' 'within number 1 0 2' 'check_done'
-check 'a script: lines that check' test "$("$T/loop" | tr '\n' ' ')" = \
-  '4 sites 7 passed, 0 failed '
+check 'a script: lines that check' test \
+  "$("$T/loop" | grep -v '^skipped' | tr '\n' ' ')" = '4 sites 7 passed, 0 failed '
 cat >"$T/sites.c" <<'END'
 #include "check.h"
 static void deep(int x) { CHECK(x > 0); }

@@ -30,6 +30,8 @@ in_profile(base, keep) = column("base") == base && strcol("keep") eq keep ? \
 in_size(keep, region) = strcol("keep") eq keep && strcol("region") eq region ? \
   column("union") : NaN
 
+stats ARG2 using "side" nooutput
+
 set key samplen 1.7 width -1 maxrows 2
 set multiplot
 set tmargin at screen 0.985
@@ -52,9 +54,9 @@ set tmargin at screen 0.55
 set bmargin at screen 0.225
 set xlabel "side of the box, or diameter of the cylinder (diameters)"
 set logscale x
-set xrange [4:25]
+set xrange [STATS_min < 4 ? 2 : 4:25]
 set yrange [*<0.5:0.8<*]
-set xtics (4, 5, 7, 10, 15, 20, 25)
+set xtics (2, 3, 4, 5, 7, 10, 15, 20, 25)
 set key at screen 0.5,0.005 center bottom maxrows 5
 plot ARG2 using "side":(in_size("nominal", "whole")):"standard error" \
     with yerrorbars pt 5 ps symbol lw thin lc rgb vermillion \
@@ -72,10 +74,11 @@ plot ARG2 using "side":(in_size("nominal", "whole")):"standard error" \
     "side":(in_size(k, "paper")):"standard error" with yerrorbars pt 3 \
     ps 1.3*symbol lw thin lc rgb black \
     title k eq "nominal" ? "the paper's bed" : "", \
-  close_packing with lines lw line lc rgb grey title "random close packing", \
-  1 - benyahia(x) with lines lw line dt 1 lc rgb sky \
+  [4:25] close_packing with lines lw line lc rgb grey \
+    title "random close packing", \
+  [4:25] 1 - benyahia(x) with lines lw line dt 1 lc rgb sky \
     title "Benyahia, O'Neill 2005", \
-  1 - zou_yu(x) with lines lw line dt 2 lc rgb green \
+  [4:25] 1 - zou_yu(x) with lines lw line dt 2 lc rgb green \
     title "Zou, Yu 1995, dense", \
-  1 - dixon(x) with lines lw line dt 4 lc rgb purple title "Dixon 1988"
+  [4:25] 1 - dixon(x) with lines lw line dt 4 lc rgb purple title "Dixon 1988"
 unset multiplot
