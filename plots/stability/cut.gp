@@ -41,7 +41,7 @@ set ylabel "error of the gap (1/{/:Italic κ})"
 set key at screen 0.52,0.535 center bottom vertical maxrows 2 width -2
 do for [i=1:4] {
   set label i word(lmaxes, i)." m" at graph 0.02,first \
-    2.2*floor_of(real(word(lmaxes, i))) left tc rgb word(colours, i)
+    5*floor_of(real(word(lmaxes, i))) left tc rgb word(colours, i)
 }
 set label 5 "{/:Italic l}_{max}:" at graph 0.02,0.93 left
 plot for [i=1:4] floor_of(real(word(lmaxes, i))) with lines lw 2*thin dt 2 \
