@@ -356,15 +356,18 @@ int watch_alloc(struct watch **out, const struct settings *s,
     status = start_stiff(w);
   struct watch_finding f;
   if (status == GSL_SUCCESS) {
-    check_cut(w);
-    check_balance(w);
+    if (!s->resume) { /* else it was said */
+      check_cut(w);
+      check_balance(w);
+    }
     status = survey(w, integrate_state(m->integrator), &f);
   }
   if (status != GSL_SUCCESS) {
     watch_free(w);
     return status;
   }
-  tell_overlap(w);
+  if (!s->resume)
+    tell_overlap(w);
   *out = w;
   return GSL_SUCCESS;
 }
@@ -445,6 +448,7 @@ void watch_store(struct watch *w, struct store *s) {
     stiffness_store(w->stiff.follow, s);
   store_size(s, &w->stiff.next_sample);
   store_size(s, &w->stiff.evaluations);
+  store_double(s, &w->start);
   store_doubles(s, w->places, 3 * w->bed->n);
   store_double(s, &w->margin);
   store_size(s, &w->next_survey);

@@ -204,50 +204,60 @@ void option_texts_free(struct option_texts *t) {
   t->count = 0;
 }
 
-/* Keeps the text where the option points to it. */
-static bool take_text(struct option_spec *o, char *text,
-                      struct option_texts *t) {
-  const bool keep = o->type == OPTION_TEXT && !o->choices;
-  const size_t most = sizeof t->at / sizeof *t->at;
-  const bool is_default_flag = o->type == OPTION_FLAG && !strcmp(text, "no");
-  if (keep && t->count == most)
-    return false;
-  if (keep)
-    t->at[t->count++] = text;
-  const bool good = is_default_flag || !option_set(o, text);
-  if (!keep)
-    free(text);
-  return good;
+/* A text that points to nothing is one that is not there. */
+static void store_text_option(const struct option_spec *o, const char **value,
+                              struct option_texts *t, struct store *s) {
+  char *text = s->loads || !*value ? NULL : strdup(*value);
+  if (!s->loads && *value && !text)
+    store_fail(s, GSL_ENOMEM);
+  store_text(s, &text);
+  if (s->loads && store_status(s) == GSL_SUCCESS && text) {
+    if (t->count == sizeof t->at / sizeof *t->at)
+      store_fail(s, GSL_EINVAL);
+    else
+      t->at[t->count++] = text;
+    struct option_spec choice = *o; /* one of the table's, not of the file's */
+    choice.value = value;
+    if (option_set(&choice, text))
+      store_fail(s, GSL_EINVAL);
+    return;
+  }
+  free(text);
 }
 
-/* A text that points to nothing is one that is not there. */
-static void store_option(struct option_spec *o, struct option_texts *t,
+/* Into a value of its own where the command line has one. */
+static void store_option(const struct option_spec *o, struct option_texts *t,
                          struct store *s) {
-  char number[320];
-  const char *given = number;
-  if (o->type == OPTION_TEXT)
-    given = *(const char *const *)o->value;
-  else
-    option_text(o, number, sizeof number);
-  char *copy = given ? strdup(given) : NULL;
-  if (given && !copy)
-    store_fail(s, GSL_ENOMEM);
-  char *text = copy;
-  store_text(s, &text);
-  free(copy);
-  if (!s->loads || store_status(s) != GSL_SUCCESS || !text)
-    return;
-  if (o->given)
-    free(text);
-  else if (!take_text(o, text, t))
-    store_fail(s, GSL_EINVAL);
+  struct option_list list;
+  double x;
+  size_t n;
+  bool flag;
+  const char *text = NULL;
+  const bool skip = s->loads && o->given;
+  switch (o->type) {
+  case OPTION_DOUBLE:
+    store_double(s, skip ? &x : o->value);
+    break;
+  case OPTION_SIZE:
+    store_size(s, skip ? &n : o->value);
+    break;
+  case OPTION_FLAG:
+    store_flag(s, skip ? &flag : o->value);
+    break;
+  case OPTION_LIST:
+    store_plain(s, skip ? &list : o->value, sizeof list);
+    break;
+  case OPTION_TEXT:
+    store_text_option(o, skip ? &text : o->value, t, s);
+    break;
+  }
 }
 
 void options_store(struct option_spec *options, struct option_texts *t,
                    struct store *s) {
   store_part(s, "options");
   for (struct option_spec *o = options; o->name; o++)
-    if (!o->each) {
+    if (!o->each && o->value) {
       store_part(s, o->name);
       store_option(o, t, s);
     }
