@@ -9,10 +9,10 @@ readme: ## put the figures' captions into README.md and docs/
 
 # The figures that the pages show: docs/NAME.png, made as build/figures/NAME.png
 # or by another name there. Those that have been made are copied.
-SHOWN := bench fig4.3 gr handover precision-contrast precision-horizon \
+SHOWN := bench fig4.3 gr growth handover precision-contrast precision-horizon \
   precision-settling stability-creep stability-cut stability-drift \
-  stability-map stability-regions stability-tunnel stability-vibration \
-  stability-wrong-bed walls
+  stability-map stability-regions stability-steps stability-tunnel \
+  stability-vibration stability-wrong-bed walls
 SHOWN_AS := \
   precision-bounce=precision-bounce-150-inelastic-time-evaluations \
   precision-rolling=precision-rolling-steps-velocity-step \

@@ -15,6 +15,8 @@ static const struct verb table[] = {
     {"drift", "energy over a thousand bounces, or in a closed box", verb_drift},
     {"creep", "what friction lets creep below the friction angle", verb_creep},
     {"cut", "the floor that the cut at lmax puts under the accuracy", verb_cut},
+    {"steps", "how many steps each sphere of a bed takes while it falls",
+     verb_steps},
     {NULL, NULL, NULL}};
 
 void verb_begin(const struct program *p, int argc, char **argv) {

@@ -12,6 +12,7 @@ int verb_tunnel(int argc, char **argv);
 int verb_drift(int argc, char **argv);
 int verb_creep(int argc, char **argv);
 int verb_cut(int argc, char **argv);
+int verb_steps(int argc, char **argv);
 
 /* Parses the options of a verb, which takes no operand, and prints what a file
    of data begins with. */

@@ -32,11 +32,11 @@ declare -A makes=(
   [stability-regions]='stability-regions.svg stability-limits.md:17'
   [stability-tunnel]='stability-tunnel.svg stability-tunnel.md:24'
   [stability-drift]='stability-drift.svg' [stability-creep]='stability-creep.svg'
-  [stability-cut]='stability-cut.svg'
+  [stability-cut]='stability-cut.svg' [stability-steps]='stability-steps.svg'
   [stability-vibration]='stability-vibration.svg'
   [stability-wrong-bed]='stability-wrong-bed.svg'
   [bench]='bench.svg bench.md:24 scaling.svg scaling.md:2'
-  [bench-peers]='peers.md:2'
+  [bench-peers]='peers.md:2' [growth]='growth.svg growth.md:6'
 )
 # Targets that make no figure; bench-clean comes last.
 others=' all check clients fuzz deps demo install uninstall clean help readme'

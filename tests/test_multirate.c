@@ -412,6 +412,38 @@ static void test_bullet(void) {
   sample_free(&same);
 }
 
+/* Steps of single spheres: in a row whose first two collide the last, out of
+   reach and at rest, takes those of all; the two take more, for any number of
+   threads the same. */
+static void test_steps(void) {
+  enum { N = 12, LAST = N - 1 };
+  size_t first[N] = {0};
+  for (int threads = 1; threads <= 2; threads++) {
+    struct sample s = sample_new(SCENE_ROTATION, N);
+    weightless(&s);
+    for (size_t i = 0; i < N; i++)
+      s.bed.x[3 * i] = 0.35 * (double)i;
+    s.bed.v[0] = 5;
+    struct motion *m = start(&s, "multirate", 1e-4, threads);
+    struct integrator *it = m->integrator;
+    size_t own[N] = {0}, last[N];
+    CHECK(integrate_stop(it, 0.05) == GSL_SUCCESS);
+    while (integrate_time(it) < 0.05 && integrate_step(it) == GSL_SUCCESS) {
+      multirate_steps(motion_multirate(m), N, last);
+      for (size_t i = 0; i < N; i++)
+        own[i] += last[i];
+    }
+    CHECK(integrate_time(it) == 0.05);
+    CHECK(own[LAST] == integrate_counts(it).accepted);
+    CHECK(own[0] > own[LAST] && own[1] > own[LAST]);
+    if (threads == 1)
+      memcpy(first, own, sizeof own);
+    CHECK(!memcmp(first, own, sizeof own));
+    motion_free(m);
+    sample_free(&s);
+  }
+}
+
 /* --- within a step ---------------------------------------------------------*/
 
 /* The state at any time is that of the steps that each sphere took: near a
@@ -646,6 +678,7 @@ int main(void) {
   test_board(10, 10, 5);
   test_apart();
   test_bullet();
+  test_steps();
   test_within();
   test_threads();
   test_ghosts();

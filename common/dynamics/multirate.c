@@ -213,3 +213,11 @@ struct multirate_report multirate_report(const struct multirate *m) {
   }
   return r;
 }
+
+void multirate_steps(const struct multirate *m, size_t count, size_t steps[]) {
+  memset(steps, 0, count * sizeof *steps);
+  for (size_t k = 0; k < m->lanes->count; k++)
+    trace_steps(m->lanes->lane[k].trace, steps);
+  for (size_t i = 0; i < count; i++)
+    steps[i] = GSL_MAX(steps[i], 1);
+}

@@ -27,6 +27,10 @@ struct multirate_report {
 };
 struct multirate_report multirate_report(const struct multirate *m);
 
+/* In how many steps each of count spheres took the last step of all; 1: in that
+   one. */
+void multirate_steps(const struct multirate *m, size_t count, size_t steps[]);
+
 
 /* The parameters of an engine. */
 struct multirate_problem {

@@ -117,3 +117,9 @@ void trace_at(const struct trace *r, double t0, const double y0[],
       y[row * stride + c] = hermite_value(&w, a[c], fa[c], b[c], fb[c]);
   }
 }
+
+void trace_steps(const struct trace *r, size_t steps[]) {
+  for (size_t k = 0; k < r->count; k++)
+    if (r->at[k].row != ERASED)
+      steps[r->at[k].row]++;
+}

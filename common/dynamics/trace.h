@@ -32,4 +32,7 @@ int trace_append(struct trace *r, const struct level *l, double t);
 void trace_at(const struct trace *r, double t0, const double y0[],
               const double f0[], double t, double y[]);
 
+/* Adds how many steps are in it to those of each row. */
+void trace_steps(const struct trace *r, size_t steps[]);
+
 #endif

@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# CPU time and fraction by the number of spheres, a block for each code and
+# contact or method, from rows of peers/peers.sh in files COUNT-NAME.tsv.
+#   awk -f growth.awk COUNT-NAME.tsv...
+# A file without a row is of a code that is not installed.
+BEGIN { FS = OFS = "\t" }
+FNR == 1 {
+  for (k = 1; k <= NF; k++) at[$k] = k
+  file = FILENAME
+  sub(/.*\//, "", file)
+  sub(/\.tsv$/, "", file)
+  spheres = file + 0
+  sub(/^[0-9]*-/, "", file)
+  next
+}
+{
+  if (!(file in rows)) name[++names] = file
+  cpu = $(at["CPU (s)"])
+  rows[file] = rows[file] file OFS spheres OFS $(at["seeds"]) OFS \
+    $(at["steps"]) OFS cpu OFS sprintf("%.3g", 1000 * cpu / spheres) OFS \
+    $(at["union"]) "\n"
+}
+END {
+  for (k = 1; k <= names; k++) {
+    if (k > 1) print "\n"
+    print "run", "spheres", "seeds", "steps", "CPU (s)", \
+      "CPU per sphere (ms)", "union"
+    printf "%s", rows[name[k]]
+  }
+}
