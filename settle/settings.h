@@ -17,6 +17,7 @@ struct settings {
   double lid;                   /* m, if given */
   double density;               /* kg/m^3, 0: by fill.mass */
   double overlap, creep;        /* diameters, radii; if given */
+  double target;                /* fraction; 0: by friction as given */
   const char *sizes, *shares;   /* NULL: equal spheres; not given */
   struct similarity similarity; /* of the spheres to the paper's */
   double travel, time;

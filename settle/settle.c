@@ -10,6 +10,7 @@
 #include "program/shared_options.h"
 #include "program/size_options.h"
 #include "start.h"
+#include "target.h"
 
 enum { CELLS, ALL };
 static const char *const pair_searches[] = {
@@ -26,6 +27,10 @@ static void no_lid(char *text, size_t size) {
 
 static void by_kappa(char *text, size_t size) {
   snprintf(text, size, "by --kappa and --f0");
+}
+
+static void by_friction(char *text, size_t size) {
+  snprintf(text, size, "by --friction");
 }
 
 static void by_vmin(char *text, size_t size) {
@@ -132,6 +137,10 @@ int main(int argc, char **argv) {
        .least = 1e-9, .most = OPTION_MANY, .unit = "radii",
        .unset = by_vmin, .help = "how far a contact with half of its friction "
                                  "creeps by the end; vmin follows"},
+      {.name = "target-fraction", .type = OPTION_DOUBLE, .value = &s.target,
+       .least = 1e-3, .most = 1, .unit = "union in the bottom cube",
+       .unset = by_friction,
+       .help = "friction is found by up to ten trial beds"},
       SIMILAR("time", &s.time, 0, "s", "end of the run", 0, 1, 0),
       INTEGRATION_OPTIONS(s.integrate, s.travel),
       {.name = "pairs", .type = OPTION_TEXT, .value = &s.pairs,
@@ -197,7 +206,11 @@ int main(int argc, char **argv) {
   if (s.time < bed.t)
     die(EXIT_USAGE, "--time %g: the start is at t=%g already", s.time, bed.t);
   s.threads = system_threads(s.threads);
+  if (!s.resume)
+    target_take(&s, options, &bed, &header);
   const int status = run(&setup, &from);
+  if (status == EXIT_DONE)
+    target_tell(&s, &bed);
   free(setup.order);
   option_texts_free(&from.texts);
   bed_free(&bed);
