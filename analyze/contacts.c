@@ -113,13 +113,28 @@ static double mean(const struct mean *m) {
 }
 
 /* Shares of the weight that walls carry, by their force along gravity: the
-   floor, whose normal is within 45 degrees of gravity, and all others. */
+   floor, where the normal is within 45 degrees of gravity, and all others. */
 static void loads(const struct measured *m, double *floor, double *sides) {
   const struct scene *s = m->scene;
   const double g = vec3_norm(s->gravity);
   *floor = *sides = 0;
+  for (size_t p = 0; p < m->network.count; p++) {
+    const struct network_contact *c = &m->network.at[p];
+    if (!c->wall || !(s->walls[c->j].radius > 0))
+      continue; /* a plane's share is added up as a whole */
+    double load[3] = {0};
+    vec3_axpy(-c->normal, c->n, load);
+    vec3_axpy(-1, c->friction, load);
+    const double share = vec3_dot(load, s->gravity) / g / m->weight;
+    if (-vec3_dot(c->n, s->gravity) > M_SQRT1_2 * g)
+      *floor += share;
+    else
+      *sides += share;
+  }
   for (size_t k = 0; k < s->walls_count; k++) {
     double load[3];
+    if (s->walls[k].radius > 0)
+      continue;
     network_wall_load(&m->network, k, load);
     const double share = vec3_dot(load, s->gravity) / g / m->weight;
     if (vec3_dot(s->walls[k].normal, s->gravity) > M_SQRT1_2 * g)

@@ -10,7 +10,6 @@
 
 struct settings {
   struct fill fill;
-  struct option_list base;
   struct scene scene;
   struct scene_words words;
   struct integrate_options integrate;

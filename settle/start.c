@@ -158,8 +158,9 @@ static void check_walls(const struct scene *scene, const struct bed *b,
   const double *x = b->x + 3 * o.sphere;
   if (o.count)
     die(EXIT_INPUT,
-        "%s: sphere %ld at (%g, %g, %g) has its centre outside wall %zu", name,
-        b->id[o.sphere], x[0], x[1], x[2], o.wall + 1);
+        "%s: sphere %ld at (%g, %g, %g) has its centre outside wall %zu%s",
+        name, b->id[o.sphere], x[0], x[1], x[2], o.wall + 1,
+        scene->walls[o.wall].radius > 0 ? ", a cylinder" : "");
 }
 
 static void check_overlaps(const struct bed *b, const char *name) {
@@ -253,6 +254,83 @@ static void take_defaults(struct settings *s) {
                             : (struct dimension){1, -1, 0});
 }
 
+/* A bead that is wider than the tube has no place in it. */
+static void check_tubes(const struct settings *s, const struct bed *b,
+                        const char *name) {
+  double widest = 0;
+  for (size_t i = 0; i < b->n; i++)
+    if (!bed_is_fixed(b, i))
+      widest = GSL_MAX(widest, b->r[i]);
+  for (size_t k = 0; k < s->scene.walls_count; k++) {
+    const double radius = s->scene.walls[k].radius;
+    if (radius > 0 && radius <= widest)
+      die(s->scene_file ? EXIT_INPUT : EXIT_USAGE,
+          "%s: a tube of radius %g m is no wider than a bead of radius %g m",
+          s->scene_file ? name : "--cylinder", radius, widest);
+  }
+}
+
+/* The one upright tube that is all there is of side walls, or NULL. */
+static const struct wall *upright_tube(const struct scene *s) {
+  const struct wall *found = NULL;
+  for (size_t k = 0; k < s->walls_count; k++) {
+    const struct wall *w = &s->walls[k];
+    if (w->radius > 0 && w->normal[0] == 0 && w->normal[1] == 0 &&
+        (!found || w->radius < found->radius))
+      found = w;
+  }
+  return found;
+}
+
+/* Whether a wall of the box with this normal goes along a cylinder, which then
+   is there instead. */
+static bool is_replaced(const struct scene *s, const double normal[3]) {
+  for (size_t k = 0; k < s->walls_count; k++)
+    if (s->walls[k].radius > 0 &&
+        fabs(vec3_dot(s->walls[k].normal, normal)) < 1e-12)
+      return true;
+  return false;
+}
+
+/* The walls of a start of its own, and what of it is to be filled. */
+static void make_container(struct settings *s, struct option_spec *options) {
+  const bool own_walls = option_find(options, "wall")->given;
+  const struct wall *tube = upright_tube(&s->scene);
+  double *base = s->words.base.at;
+  if (tube && !option_find(options, "base")->given)
+    base[0] = base[1] = 2 * tube->radius;
+  if (!(base[0] > 0 && base[1] > 0))
+    die(EXIT_USAGE, "--base: expected two numbers above 0");
+  for (int k = 0; k < 2; k++) {
+    s->fill.origin[k] = tube ? tube->point[k] - tube->radius : 0;
+    s->fill.base[k] = tube ? 2 * tube->radius : base[k];
+  }
+  s->fill.centred = tube != NULL;
+  struct scene box = {0};
+  check_memory(scene_add_box(&box, base[0], base[1]));
+  for (size_t k = 0; k < box.walls_count && !own_walls; k++) {
+    const struct wall *w = &box.walls[k];
+    if (!is_replaced(&s->scene, w->normal))
+      check_memory(scene_add_wall(&s->scene, w->point, w->normal));
+  }
+  scene_free(&box);
+}
+
+static void fill(struct settings *s, struct bed *b) {
+  const int status = fill_grid_of(&s->fill, &s->scene, b);
+  check_memory(status);
+  if (status == GSL_SUCCESS)
+    return;
+  const double widest = gsl_stats_max(b->r, 1, b->n);
+  if (s->fill.base[0] < 2.5 * widest || s->fill.base[1] < 2.5 * widest)
+    die(EXIT_USAGE, "--base %g,%g: not one sphere of radius %g fits",
+        s->fill.base[0], s->fill.base[1], widest);
+  die(EXIT_USAGE,
+      "--count %zu: not so many spheres of radius %g fit between the walls "
+      "above --drop %g with --jitter %g",
+      s->fill.count, widest, s->fill.drop, s->fill.jitter);
+}
+
 /* A wall above, which a start of its own is to be below as a whole. */
 static void add_lid(struct settings *s, const struct bed *b) {
   const double point[3] = {0, 0, s->lid}, up[3] = {0, 0, 1};
@@ -275,6 +353,7 @@ static void write_header(struct settings *s, const struct option_spec *options,
   s->fill.radius = bed_mean(b, b->r);
   s->fill.mass = bed_mean(b, b->m);
   bed_header_remove(h, "wall");
+  bed_header_remove(h, "cylinder");
   bed_header_remove(h, "status");
   check_memory(bed_header_set(h, "format", "bed-1"));
   check_memory(bed_header_set(h, "program", "settle"));
@@ -294,23 +373,24 @@ static void write_header(struct settings *s, const struct option_spec *options,
       check_memory(bed_header_set(h, o->name, text));
   }
   for (size_t k = 0; k < s->scene.walls_count; k++) {
-    const double *p = s->scene.walls[k].point, *n = s->scene.walls[k].normal;
-    const double wall[] = {p[0], p[1], p[2], n[0], n[1], n[2]};
+    const struct wall *w = &s->scene.walls[k];
+    const double *p = w->point, *n = w->normal;
+    const double wall[] = {p[0], p[1], p[2], n[0], n[1], n[2], w->radius};
+    const bool round = w->radius > 0;
     size_t used = 0;
-    for (int c = 0; c < 6; c++) {
+    for (int c = 0; c < (round ? 7 : 6); c++) {
       char number[NUMBER_SIZE];
       number_format(wall[c], number);
       used += (size_t)snprintf(text + used, sizeof text - used,
                                c ? " %s" : "%s", number);
     }
-    check_memory(bed_header_add(h, "wall", text));
+    check_memory(bed_header_add(h, round ? "cylinder" : "wall", text));
   }
 }
 
 void start_make(struct settings *s, struct option_spec *options, struct bed *b,
                 struct bed_header *header) {
   const char *name = "start";
-  const bool own_walls = option_find(options, "wall")->given;
   if (s->scene_file) {
     struct option_spec *radius = option_find(options, "radius");
     refuse_options_of_start(options);
@@ -337,18 +417,10 @@ void start_make(struct settings *s, struct option_spec *options, struct bed *b,
   if (wrong)
     die(EXIT_USAGE, "--%s", wrong);
   check_turning(&s->scene, options);
+  check_tubes(s, b, name);
   if (!s->scene_file) {
-    s->fill.base[0] = s->base.at[0];
-    s->fill.base[1] = s->base.at[1];
-    if (!(s->fill.base[0] > 0 && s->fill.base[1] > 0))
-      die(EXIT_USAGE, "--base: expected two numbers above 0");
-    const int status = fill_grid_of(&s->fill, b);
-    check_memory(status);
-    if (status != GSL_SUCCESS)
-      die(EXIT_USAGE, "--base %g,%g: not one sphere of radius %g fits",
-          s->fill.base[0], s->fill.base[1], gsl_stats_max(b->r, 1, b->n));
-    if (!own_walls)
-      check_memory(scene_add_box(&s->scene, s->fill.base[0], s->fill.base[1]));
+    make_container(s, options);
+    fill(s, b);
   }
   if (option_find(options, "lid")->given)
     add_lid(s, b);

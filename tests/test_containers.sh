@@ -64,4 +64,39 @@ printf 'x\ty\tz\tr\tvx\tfixed\n0\t0\t0\t0.1\t1\t1\n1\t1\t1\t0.1\t0\t0\n' \
   > "$T/bad.tsv"
 refused 3 'is fixed, expected no velocity' "$B/settle" --scene "$T/bad.tsv"
 
+# --- tubes -------------------------------------------------------------------
+tube=0.3,0.2,0,0,0,1,0.35
+refused 2 'no wider than a bead' "$B/settle" --cylinder 0,0,0,0,0,1,0.1
+refused 2 'expected px,py,pz,ax,ay,az,R' "$B/settle" --cylinder 0,0,0,0,0,0,1
+refused 2 'not so many spheres' "$B/settle" --cylinder 0,0,0,1,0,0,0.5
+for method in rkc multirate merson; do
+  "$B/settle" --quiet --cylinder $tube --count 30 --method $method --time 1.2 \
+    > "$T/$method.bed" 2> "$T/err"
+  check "$method in a tube" [ $? -eq 0 ]
+  within "$method: furthest from the axis" "$(awk '/^[0-9]/ {
+    d = sqrt(($2 - 0.3)^2 + ($3 - 0.2)^2); if (d > most) most = d }
+    END { print most }' "$T/$method.bed")" 0.24 0.27
+done
+grep '^# [wc].*=' "$T/rkc.bed" > "$T/keys"
+check 'its header' cmp -s <(grep -v count "$T/keys" | grep -v control) - << 'END'
+# wall=0 0 0 0 0 -1
+# cylinder=0.3 0.2 0 0 0 1 0.35
+END
+"$B/settle" --quiet --scene "$T/rkc.bed" --time 6 > "$T/rest.bed"
+check 'going on keeps it' cmp -s <(grep '^# [wc].*=' "$T/rest.bed") "$T/keys"
+"$B/analyze" contacts "$T/rest.bed" > "$T/tsv"
+within 'floor and tube carry the weight' "$(awk -v f="$(row floor "$T/tsv")" \
+  -v s="$(row sides "$T/tsv")" 'BEGIN { print f + s }')" 0.95 1.05
+check 'contacts names the tube as wall 2' [ "$("$B/analyze" contacts --network \
+  "$T/rest.bed" | awk '$4 == 2' | wc -l)" -gt 5 ]
+sed 's/0.3 0.2 0 0 0 1 0.35/0.3 0.2 0 0 0 1 0.2/' "$T/rest.bed" > "$T/bad.bed"
+refused 3 'outside wall 2, a cylinder' "$B/settle" --scene "$T/bad.bed" --time 9
+# walls of the box along the tube go, those across it stay
+"$B/settle" --quiet --cylinder 0,0.4,0.4,1,0,0,0.4 --base 1,0.8 --drop 0 \
+  --count 10 --time 0.01 > "$T/flat.bed"
+check 'ends of a horizontal tube' cmp -s <(grep '^# wall' "$T/flat.bed") - << 'END'
+# wall=0 0 0 -1 0 0
+# wall=1 0 0 1 0 0
+END
+
 check_done

@@ -74,10 +74,11 @@ bool allpairs_rates(const struct contact_list *list, const double *y,
       const struct turning turning = {ri, 0, ri, spin ? p + ROW_W : no_spin,
                                       no_spin};
       double normal[3];
+      const double distance = wall_nearest(wall, p, normal);
       for (int c = 0; c < 3; c++)
-        normal[c] = -wall->normal[c];
-      add_contact(&list->law, list->has, normal, wall_distance(wall, p) - ri,
-                  p + ROW_V, &turning, force, torque);
+        normal[c] = -normal[c];
+      add_contact(&list->law, list->has, normal, distance - ri, p + ROW_V,
+                  &turning, force, torque);
     }
     double *rate = dydt + i * stride;
     for (int c = 0; c < 3; c++) {

@@ -169,6 +169,7 @@ int contact_list_alloc(struct contact_list **out, const struct scene *s,
   }
   for (size_t k = 0; k < s->walls_count; k++)
     l->walls[k] = s->walls[k];
+  l->cylinders = s->walls_count && s->walls[s->walls_count - 1].radius > 0;
   bool uniform = true;
   double smallest = GSL_POSINF;
   for (size_t i = 0; i < l->rows; i++) {

@@ -46,6 +46,7 @@ struct contact_list {
   double gravity[3];
   size_t walls_count;
   struct wall *walls;
+  bool cylinders; /* not all of them are planes */
 
   /* Rows that have rates, doubles in each; after them a part of a bed has
      ghosts: rows that are partners only. */

@@ -26,6 +26,7 @@ int contact_subset_alloc(struct contact_list **out,
   l->stride = whole->stride;
   memcpy(l->gravity, whole->gravity, sizeof l->gravity);
   l->walls_count = whole->walls_count;
+  l->cylinders = whole->cylinders;
   l->threads = 1;
   l->most_threads = whole->most_threads;
   l->age = SIZE_MAX;
@@ -112,8 +113,9 @@ static bool wall_within(const struct contact_list *l, size_t contact,
   const size_t i = l->wall_row[contact];
   const struct wall *w = &l->walls[l->wall_id[contact]];
   const double *p = reach->y + i * l->stride;
-  const double gap = wall_distance(w, p) - l->radius[i];
-  const double approach = GSL_MAX(vec3_dot(w->normal, p + ROW_V), 0);
+  double normal[3];
+  const double gap = wall_nearest(w, p, normal) - l->radius[i];
+  const double approach = GSL_MAX(vec3_dot(normal, p + ROW_V), 0);
   return gap - speed_grows * reach->h * approach <= reach->gap;
 }
 

@@ -2,9 +2,11 @@
 /* A contact's force depends on u = x_i - x_j, the relative velocity w and the
    sum of radius times spin s. Derivatives follow from the chain rule over the
    normal n = u/d, the gap rate n.w and the slip velocity t; P is the projector
-   onto the tangent plane. A wall has a fixed normal: dn/du = 0. With the arms
-   of the contact point the sum and the torque depend on the gap as well, by
-   l/2. Rolling resistance adds a torque of u and of the difference of spins. */
+   onto the tangent plane. A plane has a fixed normal: dn/du = 0. A cylinder's
+   turns with u around its axis a: dn/du = -(P - a a)/(distance from it). With
+   the arms of the contact point the sum and the torque depend on the gap as
+   well, by l/2. Rolling resistance adds a torque of u and of the difference of
+   spins. */
 #include "dynamics/jacobian.h"
 
 #include <string.h>
@@ -100,9 +102,10 @@ static double add_slip(const struct contact_law *c, const double v[3], double a,
   return slip;
 }
 
-/* The torque of contact_roll by u and by the difference of spins. p: P. */
+/* The torque of contact_roll by u and by the difference of spins. p: P;
+   turn: as in differentiate. */
 static void add_rolling(const struct contact_law *c, const double n[3],
-                        double f, double curvature, matrix p,
+                        double f, double curvature, matrix turn, matrix p,
                         const struct turning *q, struct derivatives *d) {
   const double along = vec3_dot(q->difference, n);
   double v[3], tangent[3];
@@ -116,17 +119,24 @@ static void add_rolling(const struct contact_law *c, const double n[3],
     for (int j = 0; j < 3; j++)
       for (int k = 0; k < 3; k++)
         d->roll_spin[i][j] += q->reduced * by_v[i][k] * p[k][j];
-  add_outer(v_u, -q->reduced * curvature, n, tangent);
-  add_matrix(-q->reduced * curvature * along, p, v_u);
+  double turned[3] = {0};
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      turned[i] += turn[i][j] * tangent[j];
+  add_outer(v_u, -q->reduced * curvature, n, turned);
+  add_matrix(-q->reduced * curvature * along, turn, v_u);
   add_product(by_v, v_u, d->roll_u);
   add_outer(d->roll_u, c->kappa * c->rolling * f * q->reduced * slip, v, n);
 }
 
-/* curvature: 1/d for two spheres, 0 for a wall, so that dn/du = curvature P. */
+/* curvature: 1/d for two spheres, 0 for a plane, so that dn/du = curvature P;
+   axis: that of a cylinder along which the normal does not turn either, or
+   NULL. */
 static void differentiate(const struct contact_law *c,
                           const struct contact_features has, const double n[3],
-                          double gap, double curvature, const double w[3],
-                          const struct turning *q, struct derivatives *d) {
+                          double gap, double curvature, const double *axis,
+                          const double w[3], const struct turning *q,
+                          struct derivatives *d) {
   const double *s = q->arms;
   memset(d, 0, sizeof *d);
   d->gap = gap;
@@ -138,15 +148,21 @@ static void differentiate(const struct contact_law *c,
   const double rate = contact_tangent(n, w, s, t);
   matrix p = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   add_outer(p, -1, n, n);
+  matrix turn; /* dn/du is curvature times this */
+  memcpy(turn, p, sizeof turn);
+  if (axis)
+    add_outer(turn, -1, axis, axis);
   double rate_u[3]; /* gradient of n.w by u; by w it is n */
   for (int i = 0; i < 3; i++)
     rate_u[i] = curvature * (w[i] - rate * n[i]);
+  if (axis)
+    vec3_axpy(-curvature * vec3_dot(w, axis), axis, rate_u);
 
   const double rho = has.elastic ? 1 : contact_rebound(c, -rate);
   const double rho_rate = has.elastic ? 0 : -contact_rebound_slope(c, -rate);
   add_outer(d->force_u, -c->kappa * f * rho, n, n);
   add_outer(d->force_u, f * rho_rate, n, rate_u);
-  add_matrix(f * rho * curvature, p, d->force_u);
+  add_matrix(f * rho * curvature, turn, d->force_u);
   add_outer(d->force_w, f * rho_rate, n, n);
   if (!has.friction)
     return;
@@ -157,9 +173,9 @@ static void differentiate(const struct contact_law *c,
 
   matrix t_u = {{0}}, t_s = {{0}}, cross_s = {{0}};
   add_outer(t_u, -1, n, rate_u);
-  add_matrix(-rate * curvature, p, t_u);
+  add_matrix(-rate * curvature, turn, t_u);
   add_cross(cross_s, -curvature, s);
-  add_product(cross_s, p, t_u);
+  add_product(cross_s, turn, t_u);
   add_cross(t_s, 1, n);
 
   matrix fr_u = {{0}}, fr_w = {{0}}, fr_s = {{0}};
@@ -179,7 +195,7 @@ static void differentiate(const struct contact_law *c,
   add_cross(cross_n, 1, n);
   add_cross(cross_f, -curvature, friction);
   add_product(cross_n, fr_u, d->torque_u);
-  add_product(cross_f, p, d->torque_u);
+  add_product(cross_f, turn, d->torque_u);
   add_product(cross_n, fr_w, d->torque_w);
   add_product(cross_n, fr_s, d->torque_s);
   vec3_cross(n, friction, d->torque);
@@ -188,7 +204,7 @@ static void differentiate(const struct contact_law *c,
     add_product_outer(d->torque_u, 0.5, d->torque_s, q->sum, n);
   }
   if (has.rolling)
-    add_rolling(c, n, f, curvature, p, q, d);
+    add_rolling(c, n, f, curvature, turn, p, q, d);
 }
 
 struct dense {
@@ -261,7 +277,7 @@ void jacobian_dense(const struct contact_list *list, const double *y,
     const double normal[3] = {u[0] / distance, u[1] / distance,
                               u[2] / distance};
     differentiate(&list->law, list->has, normal, distance - ri - rj,
-                  1 / distance, w, &turning, &d);
+                  1 / distance, NULL, w, &turning, &d);
     add_body(list, &m, i, i, 1, 1, &d);
     add_body(list, &m, i, j, 1, -1, &d);
     add_body(list, &m, j, i, -1, 1, &d);
@@ -271,15 +287,18 @@ void jacobian_dense(const struct contact_list *list, const double *y,
     const size_t i = list->wall_row[c];
     const struct wall *wall = &list->walls[list->wall_id[c]];
     const double *p = y + i * stride;
-    const double ri = list->radius[i], gap = wall_distance(wall, p) - ri;
-    struct turning turning = {0};
     double normal[3];
+    const double ri = list->radius[i];
+    const double gap = wall_nearest(wall, p, normal) - ri;
+    const bool round = wall->radius > 0;
+    struct turning turning = {0};
     for (int a = 0; a < 3; a++)
-      normal[a] = -wall->normal[a];
+      normal[a] = -normal[a];
     if (list->has.rotation)
       turning = turn_of(list, gap, ri, p + ROW_W, 0, NULL);
-    differentiate(&list->law, list->has, normal, gap, 0, p + ROW_V, &turning,
-                  &d);
+    differentiate(&list->law, list->has, normal, gap,
+                  round ? 1 / (gap + ri - wall->radius) : 0,
+                  round ? wall->normal : NULL, p + ROW_V, &turning, &d);
     add_body(list, &m, i, i, 1, 1, &d);
   }
 }

@@ -185,7 +185,7 @@ INLINE void load_wall(const struct contact_list *list, const double *y,
   b->nx[c] = -w->normal[0];
   b->ny[c] = -w->normal[1];
   b->nz[c] = -w->normal[2];
-  b->gap[c] = wall_distance(w, p) - r;
+  b->gap[c] = plane_distance(w, p) - r;
   b->vx[c] = p[ROW_V];
   b->vy[c] = p[ROW_V + 1];
   b->vz[c] = p[ROW_V + 2];
@@ -244,6 +244,24 @@ INLINE void load_walls(const struct contact_list *list, const double *y,
       load_four_walls(list, y, from + c, c, b);
   for (; c < count; c++)
     load_wall(list, y, from + c, c, b, has);
+}
+
+/* Where some walls are cylinders, puts in their normals and gaps. */
+INLINE void bend_walls(const struct contact_list *list, const double *y,
+                       size_t from, size_t count, struct block *b,
+                       const struct contact_features has) {
+  const size_t stride = has.rotation ? ROW_SPIN : ROW_PLAIN;
+  for (size_t c = 0; c < count; c++) {
+    const size_t i = list->wall_row[from + c];
+    const struct wall *w = &list->walls[list->wall_id[from + c]];
+    double normal[3];
+    if (!(w->radius > 0))
+      continue;
+    b->gap[c] = cylinder_distance(w, y + i * stride, normal) - list->radius[i];
+    b->nx[c] = -normal[0];
+    b->ny[c] = -normal[1];
+    b->nz[c] = -normal[2];
+  }
 }
 
 /* Fills a block up to whole vectors with idle contacts, so that a contact is
@@ -484,6 +502,8 @@ INLINE void add_walls(const struct contact_list *list, const double *y,
   for (size_t w = list->wall_first[from]; w < end; w += BLOCK) {
     const size_t some = end - w < BLOCK ? end - w : BLOCK;
     load_walls(list, y, w, some, &b, has);
+    if (list->cylinders)
+      bend_walls(list, y, w, some, &b, has);
     evaluate(&list->law, pad(&b, some, has), &b, has);
     scatter_walls(&b, list->wall_row + w, some, part, has);
   }

@@ -7,17 +7,18 @@
 #include <gsl/gsl_errno.h>
 #include "files/numbers.h"
 
-static const double default_radius = 0.1; /* settle's */
+static const double default_radius = 0.1;                         /* settle's */
+static const char *const repeated[] = {"wall", "cylinder", NULL}; /* keys */
 static const char format_key[] = "format", own[] = "bed-1";
 
 struct bed_state {
   double t;
-  bool walls_stale; /* the next wall line begins a new set */
-  bool complete;    /* the status line was read */
-  bool ended;       /* the next bed begins, whether that was read or not */
-  bool named;       /* column names were read since the last frame, */
-  bool timed;       /* or a time, so there must be rows; */
-  bool apart;       /* a blank line came since that time */
+  bool stale[2]; /* the next wall or cylinder line begins a new set */
+  bool complete; /* the status line was read */
+  bool ended;    /* the next bed begins, whether that was read or not */
+  bool named;    /* column names were read since the last frame, */
+  bool timed;    /* or a time, so there must be rows; */
+  bool apart;    /* a blank line came since that time */
 };
 
 static struct text trim(struct text t) {
@@ -75,11 +76,14 @@ static int read_key(struct bed_reader *r, const char *name, const char *value) {
   }
   if (!strcmp(name, "status"))
     s->complete = true;
-  if (strcmp(name, "wall"))
+  size_t k = 0;
+  while (repeated[k] && strcmp(name, repeated[k]))
+    k++;
+  if (!repeated[k])
     return bed_header_set(&r->header, name, value);
-  if (s->walls_stale)
-    bed_header_remove(&r->header, "wall");
-  s->walls_stale = false;
+  if (s->stale[k])
+    bed_header_remove(&r->header, name);
+  s->stale[k] = false;
   return bed_header_add(&r->header, name, value);
 }
 
@@ -121,7 +125,7 @@ static int read_names(struct bed_reader *r) {
 
 static int finish_frame(struct bed_reader *r, struct bed *b) {
   struct bed_state *s = r->state;
-  s->walls_stale = true;
+  s->stale[0] = s->stale[1] = true;
   s->named = s->timed = false;
   return reader_frame(r, b, s->t);
 }

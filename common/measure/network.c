@@ -50,7 +50,9 @@ static void set_wall(struct network_contact *c, const struct scene *s,
   double spin[3] = {0};
   *c = (struct network_contact){
       .i = i, .j = k, .wall = true, .counts = true, .gap = gap};
-  vec3_axpy(-1, s->walls[k].normal, c->n);
+  wall_nearest(&s->walls[k], b->x + 3 * i, c->n);
+  for (int a = 0; a < 3; a++)
+    c->n[a] = -c->n[a];
   if (scene_has_rotation(s))
     vec3_axpy(contact_arm(&s->law, b->r[i], gap), b->w + 3 * i, spin);
   set_forces(c, s, b->v + 3 * i, spin);

@@ -3,16 +3,20 @@
 #ifndef FILL_H
 #define FILL_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include "model/bed.h"
+#include "model/scene.h"
 
 struct fill {
   size_t count;
   double radius;  /* m */
   double mass;    /* kg */
-  double base[2]; /* of the box (m) */
-  double drop;    /* height of the first layer's lower edge (m) */
-  double jitter;  /* largest displacement, in radii */
+  double base[2]; /* sides of what is filled, from origin (m) */
+  double origin[2];
+  bool centred;  /* the grid in it, which begins at the origin else */
+  double drop;   /* height of the first layer's lower edge (m) */
+  double jitter; /* largest displacement, in radii */
   size_t seed;
 };
 
@@ -22,11 +26,12 @@ struct fill {
    for one sphere, GSL_ENOMEM. */
 int fill_grid(const struct fill *f, struct bed *b);
 
-/* The same of spheres that have their radii and masses: r is the largest radius.
-   Of spheres that are k times smaller, k whole, k^3 share a place of the grid,
-   in one of their own, and are moved by as much less; so the layers are not
-   full of holes, and no two spheres overlap. Of the fill, count, radius and mass
-   are not looked at. */
-int fill_grid_of(const struct fill *f, struct bed *b);
+/* The same of spheres that have their radii and masses, where each is within
+   all walls of the scene, which may be NULL: r is the largest radius. Of
+   spheres that are k times smaller, k whole, k^3 share a place of the grid, in
+   one of their own, and are moved by as much less; so the layers are not full
+   of holes, and no two spheres overlap. Of the fill, count, radius and mass are
+   not looked at. GSL_EINVAL also if there are not places enough. */
+int fill_grid_of(const struct fill *f, const struct scene *s, struct bed *b);
 
 #endif

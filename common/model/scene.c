@@ -69,8 +69,9 @@ bool scene_has_lever(const struct scene *s) {
   return scene_has_rotation(s) && s->law.lever != LEVER_PAPER;
 }
 
-int scene_add_wall(struct scene *s, const double point[3],
-                   const double normal[3]) {
+/* Appends a wall to the first `before` of them. */
+static int add_wall(struct scene *s, size_t before, const double point[3],
+                    const double normal[3], double radius) {
   const double length = vec3_norm(normal);
   if (!(length > 0) || !gsl_finite(length) || !gsl_finite(vec3_norm(point)))
     return GSL_EINVAL;
@@ -79,12 +80,30 @@ int scene_add_wall(struct scene *s, const double point[3],
   if (!walls)
     return GSL_ENOMEM;
   s->walls = walls;
-  struct wall *w = &walls[s->walls_count++];
+  struct wall *w = &walls[before];
+  memmove(w + 1, w, (s->walls_count - before) * sizeof *w);
+  s->walls_count++;
   for (int k = 0; k < 3; k++) {
     w->point[k] = point[k];
     w->normal[k] = normal[k] / length;
   }
+  w->radius = radius;
   return GSL_SUCCESS;
+}
+
+int scene_add_wall(struct scene *s, const double point[3],
+                   const double normal[3]) {
+  size_t planes = 0;
+  while (planes < s->walls_count && !(s->walls[planes].radius > 0))
+    planes++;
+  return add_wall(s, planes, point, normal, 0);
+}
+
+int scene_add_cylinder(struct scene *s, const double point[3],
+                       const double axis[3], double radius) {
+  if (!(radius > 0) || !gsl_finite(radius))
+    return GSL_EINVAL;
+  return add_wall(s, s->walls_count, point, axis, radius);
 }
 
 int scene_add_box(struct scene *s, double a, double b) {

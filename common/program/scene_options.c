@@ -10,7 +10,8 @@
 struct scene_words scene_words_default(void) {
   const struct scene s = scene_default();
   return (struct scene_words){.model = scene_models[s.model].name,
-                              .gravity = {1, {-s.gravity[2]}}};
+                              .gravity = {1, {-s.gravity[2]}},
+                              .base = {2, {1, 1}}};
 }
 
 int scene_wall_option(const struct option_list *v, void *scene) {
@@ -19,6 +20,10 @@ int scene_wall_option(const struct option_list *v, void *scene) {
 
 void scene_lever_unset(char *text, size_t size) {
   snprintf(text, size, "%s", scene_levers[0].name);
+}
+
+int scene_cylinder_option(const struct option_list *v, void *scene) {
+  return scene_add_cylinder(scene, v->at, v->at + 3, v->at[6]);
 }
 
 const char *scene_finish(struct scene *s, const struct scene_words *w) {

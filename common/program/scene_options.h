@@ -14,6 +14,7 @@ struct scene_words {
   const char *model;          /* name of one of scene_models */
   const char *lever;          /* of one of scene_levers, NULL: the first */
   struct option_list gravity; /* one number, downwards, or three */
+  struct option_list base;    /* sides of the box, two */
 };
 
 /* The words for scene_default(). */
@@ -24,6 +25,9 @@ int scene_wall_option(const struct option_list *v, void *scene);
 
 /* Text of --help for lever's default. */
 void scene_lever_unset(char *text, size_t size);
+
+/* For option cylinder: appends {px, py, pz, ax, ay, az, R}. */
+int scene_cylinder_option(const struct option_list *v, void *scene);
 
 /* Puts the words into the scene and checks it. NULL, or what is wrong, a
    static string. */

@@ -89,7 +89,12 @@
    .unit = "px,py,pz,nx,ny,nz with a normal of positive length",               \
    .help = "plane by a point and outward normal, repeatable; replaces "        \
            "the box",                                                          \
-   .parameter = true, .each = scene_wall_option, .context = &(s)}
+   .parameter = true, .each = scene_wall_option, .context = &(s)},             \
+  {.name = "cylinder", .type = OPTION_LIST, .least = 7, .most = 7,             \
+   .unit = "px,py,pz,ax,ay,az,R with an axis and R of positive length",        \
+   .help = "inside of a cylinder by a point on its axis and its direction, "   \
+           "repeatable; replaces walls of the box along it",                   \
+   .parameter = true, .each = scene_cylinder_option, .context = &(s)}
 
 /* clang-format on */
 
