@@ -40,7 +40,8 @@ static void take_overlap(struct settings *s, struct option_spec *options,
     }
   const double diameter = 2 * bed_mean(b, b->r);
   const struct softness_load load = {.weight = mass * -g[2],
-                                     .area = s->words.base.at[0] * s->words.base.at[1],
+                                     .area = s->words.base.at[0] *
+                                             s->words.base.at[1],
                                      .volume = 4 * M_PI / 3 * cubes / count,
                                      .diameter = diameter};
   c->f0 = softness_f0(&load, c->restitution);

@@ -202,7 +202,7 @@ static void test_fill(void) {
                            .drop = 1,
                            .jitter = 0.25, /* more presses on walls */
                            .seed = 3};
-    CHECK(fill_grid_of(&f, &b) == GSL_SUCCESS);
+    CHECK(fill_grid_of(&f, NULL, &b) == GSL_SUCCESS);
     double top = 0;
     for (size_t i = 0; i < SPHERES; i++) {
       const double *x = b.x + 3 * i;
