@@ -56,7 +56,8 @@ static struct dynamics *dynamics_of(const struct world *w, bool all_pairs,
                                     int threads) {
   struct dynamics *d = NULL;
   if (dynamics_alloc(&d, &w->scene, &w->bed,
-                     &(struct dynamics_options){all_pairs, threads}) !=
+                     &(struct dynamics_options){.all_pairs = all_pairs,
+                                                .threads = threads}) !=
       GSL_SUCCESS)
     abort();
   return d;
