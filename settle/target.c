@@ -43,8 +43,9 @@ struct search {
 };
 
 static double fraction_of(const struct settings *s, const struct bed *b) {
-  const double side = GSL_MIN(s->base.at[0], s->base.at[1]);
-  const double box[] = {0, s->base.at[0], 0, s->base.at[1], 0, side};
+  const double side = GSL_MIN(s->words.base.at[0], s->words.base.at[1]);
+  const double box[] = {0,   s->words.base.at[0], 0, s->words.base.at[1], 0,
+                        side};
   double united;
   const int status = volume_union(b->n, b->x, b->r, box, &united);
   if (status != GSL_SUCCESS)
