@@ -5,6 +5,7 @@
 # A file without a row is of a code that is not installed.
 BEGIN { FS = OFS = "\t" }
 FNR == 1 {
+  split("", at)
   for (k = 1; k <= NF; k++) at[$k] = k
   file = FILENAME
   sub(/.*\//, "", file)
@@ -16,15 +17,16 @@ FNR == 1 {
 {
   if (!(file in rows)) name[++names] = file
   cpu = $(at["CPU (s)"])
+  c = "contact evaluations" in at ? $(at["contact evaluations"]) : "-"
   rows[file] = rows[file] file OFS spheres OFS $(at["seeds"]) OFS \
     $(at["steps"]) OFS cpu OFS sprintf("%.3g", 1000 * cpu / spheres) OFS \
-    $(at["union"]) "\n"
+    $(at["union"]) OFS (c == "-" ? c : sprintf("%.0f", c / spheres)) "\n"
 }
 END {
   for (k = 1; k <= names; k++) {
     if (k > 1) print "\n"
     print "run", "spheres", "seeds", "steps", "CPU (s)", \
-      "CPU per sphere (ms)", "union"
+      "CPU per sphere (ms)", "union", "contact evaluations per sphere"
     printf "%s", rows[name[k]]
   }
 }

@@ -32,8 +32,8 @@ ROWS=${ROWS:-$(for code in lammps liggghts; do
     echo "$code $case"
   done
 done
-echo 'settle rotation 0.2 -'
-echo 'settle basic 0 -')}
+printf 'settle rotation 0.2 -%s\n' '' ' --tol 5e-4' ' --method rkc'
+printf 'settle basic 0 -%s\n' '' ' --method rkc')}
 here=$(cd "$(dirname "$0")" && pwd)
 bin=$(cd "$B" 2> /dev/null && pwd) || bin=$B
 for program in settle analyze; do
@@ -241,9 +241,9 @@ measure() {
 }
 
 # A row from $tmp/runs: means and standard errors over the seeds, the largest
-# speed of all.
+# speed of all; and the contact evaluations of the last seed, where known.
 row() {
-  awk -v OFS='\t' -v head="$1" '
+  awk -v OFS='\t' -v head="$1" -v contacts="${2:--}" '
     {
       cpu += $1; sum += $2; uni += $3; uni2[NR] = $3
       if ($4 > speed) speed = $4
@@ -254,7 +254,7 @@ row() {
       error = NR > 1 ? sprintf("%.4f", sqrt(s / (NR - 1) / NR)) : "-"
       gsub(/ /, "\t", head)
       print head, NR, sprintf("%.2f", cpu / NR), sprintf("%.4f", sum / NR), \
-        sprintf("%.4f", mean), error, sprintf("%.1e", speed)
+        sprintf("%.4f", mean), error, sprintf("%.1e", speed), contacts
     }' "$tmp/runs"
 }
 
@@ -285,7 +285,7 @@ peer_row() {
 # A row of settle: MODEL FRICTION - OPTION...; its steps are those of the last
 # seed.
 settle_row() {
-  local model=$1 mu=$2 method steps
+  local model=$1 mu=$2 method steps contacts
   shift 3
   for seed in $SEEDS; do
     TIMEFORMAT='%U %S'
@@ -296,14 +296,17 @@ settle_row() {
   done
   steps=$(awk -F '\t' '$1 == "steps_accepted" { print $2 }' "$tmp/stats")
   method=$(awk -F '\t' '$1 == "method" { print $2 }' "$tmp/stats")
-  row "settle $model-$method $mu - adaptive $steps"
+  contacts=$(awk -F '\t' '$1 == "contact_evaluations" { print $2 }' \
+    "$tmp/stats")
+  method+=$(sed -n 's/.*--tol /-/p' <<< "$*")
+  row "settle $model-$method $mu - adaptive $steps" "$contacts"
 }
 
 start=(--count "$COUNT" --base "$BASE,$BASE")
 missing=
 printf '%s\t' code contact friction 'k (N/m)' 'step (s)' steps seeds \
   'CPU (s)' sum union 'standard error'
-printf '%s\n' 'largest speed (m/s)'
+printf '%s\t%s\n' 'largest speed (m/s)' 'contact evaluations'
 while read -r code what; do
   : > "$tmp/runs"
   # shellcheck disable=SC2086 # words
