@@ -22,10 +22,6 @@
 /* At most so many trials; those of the line. */
 enum { TRIALS = 10, NEAR = 5 };
 
-/* Trials may be coarser than the bed: at ten times the default tolerance a bed
-   of 200 differs by its chance alone (docs/multirate.md). */
-static const double coarser = 10;
-
 /* Standard deviation of a bed of 200 over seeds (docs/softness.md). */
 static const double bed_deviation = 0.006, bed_spheres = 200;
 
@@ -68,20 +64,18 @@ static bool rests(struct rest_watch *w, const struct motion *m,
 static double settle(const struct search *q, double friction) {
   const struct settings *s = q->set;
   struct scene scene = s->scene;
-  struct integrate_options integrate = s->integrate;
   struct bed b;
   struct motion *m;
   scene.law.friction = friction;
-  integrate.tol *= coarser;
   if (bed_copy(&b, q->bed) != GSL_SUCCESS)
     die(EXIT_IO, "out of memory");
   int status =
-      motion_alloc(&m, &scene, &b, &integrate,
+      motion_alloc(&m, &scene, &b, &s->integrate,
                    &(struct dynamics_options){.all_pairs = s->all_pairs,
                                               .threads = (int)s->threads},
                    s->travel / scene.law.kappa);
   if (status != GSL_SUCCESS)
-    die_status(status, "method %s", integrate.method);
+    die_status(status, "method %s", s->integrate.method);
   struct rest_watch rest = rest_watch_begin(b.t, &s->similarity);
   while (status == GSL_SUCCESS && integrate_time(m->integrator) < s->time &&
          !(s->until_rest && rests(&rest, m, &b)))
@@ -89,7 +83,7 @@ static double settle(const struct search *q, double friction) {
   if (status != GSL_SUCCESS)
     die(EXIT_INTEGRATION, "--target-fraction: with friction %g, t=%.6g: %s",
         friction, integrate_time(m->integrator),
-        integration_error(&integrate, status));
+        integration_error(&s->integrate, status));
   dynamics_unpack(m->dynamics, integrate_state(m->integrator), &b);
   const double fraction = fraction_of(s, &b);
   motion_free(m);

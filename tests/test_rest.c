@@ -145,8 +145,7 @@ static double bed_rests_at(const char *method, double tol, double step,
   while (!rests && t < 30 && integrate_step(m->integrator) == GSL_SUCCESS) {
     const double *y = integrate_state(m->integrator);
     t = integrate_time(m->integrator);
-    if (rest_watch_see(&w, t,
-                       dynamics_kinetic(m->dynamics, y) / (double)b.n)) {
+    if (rest_watch_see(&w, t, dynamics_kinetic(m->dynamics, y) / (double)b.n)) {
       CHECK(dynamics_survey(m->dynamics, y, &v) == GSL_SUCCESS);
       /* the height's energy, from the lowest sphere's surface */
       CHECK(v.height > 0.5 * (double)b.n * 9.81 * f.radius &&
@@ -174,8 +173,8 @@ static void test_methods(void) {
                  {"verlet", 0, 2e-4}};
   for (size_t k = 0; k < sizeof methods / sizeof *methods; k++) {
     double overlap;
-    const double t =
-        bed_rests_at(methods[k].name, methods[k].tol, methods[k].step, &overlap);
+    const double t = bed_rests_at(methods[k].name, methods[k].tol,
+                                  methods[k].step, &overlap);
     printf("%s: at rest at %.3g s, overlap %.3g r\n", methods[k].name, t,
            overlap);
     CHECK_CLOSE(t, 6.75, 0.75);

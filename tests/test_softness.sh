@@ -16,7 +16,8 @@ header() { # FILE KEY
 
 # The mean over 17 to 20 contacts is known to a sixth: their loads differ as an
 # exponential distribution does, so ln N by 1.28, and its mean is 1.47.
-for options in '--seed 1 --overlap 0.03' '--seed 2 --overlap 0.005 --friction 0.5' \
+for options in '--seed 1 --overlap 0.03' \
+  '--seed 2 --overlap 0.005 --friction 0.5' \
   '--seed 3 --overlap 0.01 --model basic --restitution 0.8' \
   '--seed 4 --overlap 0.02 --radius 0.00025 --density 2500' \
   '--seed 5 --overlap 0.01 --base 1.5,0.8 --count 120'; do

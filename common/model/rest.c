@@ -51,8 +51,8 @@ void rest_watch_sample(struct rest_watch *w, double t, double energy,
   const double passed = t - w->t[place(k)];
   const double lost = w->energy[place(k)] - energy;
   if (passed > 0)
-    w->loss = (height_energy > 0 ? lost / height_energy : 0) * w->settling /
-              passed;
+    w->loss =
+        (height_energy > 0 ? lost / height_energy : 0) * w->settling / passed;
 }
 
 bool rest_watch_rests(const struct rest_watch *w, double t) {

@@ -10,11 +10,11 @@
      the energy of gravity and of contacts together: in a bed that was just
      made the contacts relax while the centre rises.
 
-   Speeds alone do not tell: contacts with friction creep (2.8), so a bed goes on
-   flowing for long, slowly and evenly, with an avalanche now and then. For the
-   paper's sphere the times are 1 s and 5 s. Beds of 200 that this calls at rest
-   have the fraction that they have at 40 s within 0.002 on average and 0.004
-   in four of five seeds, with kappa r = 15 and 60 (docs/analysis.md). The
+   Speeds alone do not tell: contacts with friction creep (2.8), so a bed goes
+   on flowing for long, slowly and evenly, with an avalanche now and then. For
+   the paper's sphere the times are 1 s and 5 s. Beds of 200 that this calls at
+   rest have the fraction that they have at 40 s within 0.002 on average and
+   0.004 in four of five seeds, with kappa r = 15 and 60 (docs/analysis.md). The
    criterion of settle --until-rest and of analyze rest. Not in the paper. Safe
    in any thread. Tested in tests/test_rest.c. */
 #ifndef REST_H
