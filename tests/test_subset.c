@@ -325,7 +325,7 @@ static void test_first_sphere(void) {
       bed.r[i] = i == 100 * first ? 10 : 0.1;
       bed.x[3 * i] = 0.3 * (double)i;
     }
-    CHECK(contact_list_alloc(&l, &scene, &bed, 1) == GSL_SUCCESS);
+    CHECK(contact_list_alloc(&l, &scene, &bed, 1, NULL) == GSL_SUCCESS);
     way[first] = contact_list_longest_way(l);
     contact_list_free(l);
     bed_free(&bed);
