@@ -20,7 +20,9 @@
 static const enum scene_model models[3] = {SCENE_BASIC, SCENE_FRICTION,
                                            SCENE_ROTATION};
 static const char *const model_names[3] = {"basic", "friction", "rotation"};
-static const struct dynamics_options cells = {false, 1}, all_pairs = {true, 1};
+static const struct dynamics_options cells = {.threads = 1},
+                                     all_pairs = {.all_pairs = true,
+                                                  .threads = 1};
 
 /* --- random scenes ---------------------------------------------------------*/
 
@@ -327,7 +329,8 @@ static void test_threads(gsl_rng *rng) {
       double *first = NULL;
       for (int threads = 1; threads <= 4; threads++) {
         struct dynamics *d =
-            new_dynamics(&s, &(struct dynamics_options){all, threads});
+            new_dynamics(&s, &(struct dynamics_options){.all_pairs = all,
+                                                        .threads = threads});
         const size_t dim = dynamics_dimension(d);
         double *y = numbers(dim), *dydt = numbers(dim);
         dynamics_pack(d, &s.bed, y);
@@ -361,7 +364,7 @@ static void test_stage(gsl_rng *rng) {
     double *once = NULL;
     for (int threads = 1; threads <= 3; threads++) {
       struct dynamics *d =
-          new_dynamics(&s, &(struct dynamics_options){false, threads});
+          new_dynamics(&s, &(struct dynamics_options){.threads = threads});
       const size_t dim = dynamics_dimension(d);
       double *y = numbers(6 * dim), *f = y + dim, *start = f + dim,
              *rate = start + dim, *old = rate + dim, *out = old + dim;

@@ -214,7 +214,7 @@ static bool settled(struct scene *s, struct bed *b, size_t n,
   struct motion *m = NULL;
   const struct integrate_options o = {
       .method = "rkc", .control = "predictive", .tol = 1e-4, .hinit = 1e-3};
-  if (motion_alloc(&m, s, b, &o, &(struct dynamics_options){false, 1},
+  if (motion_alloc(&m, s, b, &o, &(struct dynamics_options){.threads = 1},
                    1 / s->law.kappa) != GSL_SUCCESS)
     return false;
   bool ok = true;
@@ -255,7 +255,8 @@ static void test_bed_radius(void) {
       continue;
     struct dynamics *d = NULL;
     CHECK(dynamics_alloc(&d, &scene, &bed,
-                         &(struct dynamics_options){false, 1}) == GSL_SUCCESS);
+                         &(struct dynamics_options){.threads = 1}) ==
+          GSL_SUCCESS);
     const size_t dim = dynamics_dimension(d);
     double *y = numbers(dim), *f = numbers(dim);
     dynamics_pack(d, &bed, y);
@@ -327,8 +328,9 @@ static void test_survey(gsl_rng *rng) {
       }
     }
     struct dynamics *d = NULL;
-    CHECK(dynamics_alloc(&d, &s, &b, &(struct dynamics_options){false, 1}) ==
-          GSL_SUCCESS);
+    CHECK(
+        dynamics_alloc(&d, &s, &b, &(struct dynamics_options){.threads = 1}) ==
+        GSL_SUCCESS);
     double *y = numbers(dynamics_dimension(d));
     dynamics_pack(d, &b, y);
     struct survey v;
@@ -379,7 +381,7 @@ static void test_bits(const char *method, enum scene_model model) {
   double *y[2];
   for (int look = 0; look < 2; look++) {
     CHECK(motion_alloc(&m[look], &scene, &bed, &o,
-                       &(struct dynamics_options){false, 1},
+                       &(struct dynamics_options){.threads = 1},
                        1 / scene.law.kappa) == GSL_SUCCESS);
     struct dynamics *d = m[look]->dynamics;
     const size_t dim = dynamics_dimension(d);
