@@ -150,7 +150,7 @@ fuzz: $(B)/fuzz/readers ## feed random files to the readers, FUZZ_SECONDS=60 (cl
 PACKAGES := gcc make libgsl-dev gnuplot-nox fonts-dejavu-core
 PACKAGES_TESTS := groff-base xz-utils zstd
 PACKAGES_DEVELOPER := clang libomp-dev clang-tidy clang-format cppcheck \
-  shellcheck strace ffmpeg parallel slurm-wlm
+  shellcheck strace ffmpeg parallel slurm-wlm liblammps-dev
 has = command -v $(1) >/dev/null
 apt = $$([ "$$(id -u)" = 0 ] || echo sudo) apt-get
 define install_packages
@@ -223,6 +223,6 @@ help: ## this list
 	@sed -n 's/^\([a-zA-Z0-9.-]*\):.*## \(.*\)/\1\t\2/p' $(MAKEFILE_LIST) | \
 	  expand -t 16
 
-include plots/rules.mk plots/captions.mk
+include plots/rules.mk plots/captions.mk settle/lammps/lammps.mk
 
 .PHONY: all check check-quick clients sanitize tidy fuzz deps deps-developer demo man install uninstall clean help

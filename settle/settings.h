@@ -24,6 +24,7 @@ struct settings {
   const char *output;              /* NULL: standard output */
   const char *checkpoint, *resume; /* files, or NULL */
   double every;                    /* between checkpoints, on the wall (s) */
+  const char *lammps; /* folder to write the scene to instead of a run */
   size_t frames, threads;
   bool all_pairs; /* by pairs */
   bool until_rest, allow_partial, quiet;

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "platform/system.h"
+#include "export_lammps.h"
 #include "run.h"
 #include "program/integration.h"
 #include "program/shared_options.h"
@@ -163,6 +164,9 @@ int main(int argc, char **argv) {
       {.name = "resume", .type = OPTION_TEXT, .value = &s.resume,
        .help = "goes on from a checkpoint, to the last bit as if it had not "
                "stopped"},
+      {.name = "export-lammps", .type = OPTION_TEXT, .value = &s.lammps,
+       .help = "folder to write the start to instead of a run, for "
+               "settle-lammps (docs/beyond-one-machine.md)"},
       {.name = "threads", .type = OPTION_SIZE, .value = &s.threads,
        .most = 1024, .unit = "0: all cores", .help = "threads"},
       {.name = "allow-partial", .type = OPTION_FLAG,
@@ -190,6 +194,8 @@ int main(int argc, char **argv) {
   s.all_pairs = !strcmp(s.pairs, pair_searches[ALL]);
   struct checkpoint from = {0};
   struct setup setup = {&s, options, &bed, &header, NULL};
+  if (s.lammps && !s.integrate.method)
+    s.integrate.method = "rkc"; /* the host's */
   if (s.resume) {
     check_resume(options);
     checkpoint_open(&from, s.resume, &setup, &setup.order);
@@ -207,9 +213,14 @@ int main(int argc, char **argv) {
   s.threads = system_threads(s.threads);
   if (!s.resume)
     target_take(&s, options, &bed, &header);
-  const int status = run(&setup, &from);
-  if (status == EXIT_DONE)
-    target_tell(&s, &bed);
+  int status = EXIT_DONE;
+  if (s.lammps)
+    export_lammps(s.lammps, &s, &bed, &header);
+  else {
+    status = run(&setup, &from);
+    if (status == EXIT_DONE)
+      target_tell(&s, &bed);
+  }
   free(setup.order);
   option_texts_free(&from.texts);
   bed_free(&bed);

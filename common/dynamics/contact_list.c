@@ -175,20 +175,14 @@ int contact_list_alloc(struct contact_list **out, const struct scene *s,
   for (size_t i = 0; i < l->rows; i++) {
     l->radius[i] = b->r[l->order[i]];
     l->mass[i] = b->m[l->order[i]];
-    l->push[i] = 1 / l->mass[i];
-    l->turn[i] = -2.5 * l->push[i] / l->radius[i]; /* I = 2 m r^2/5 */
+    contact_list_mass(l, i);
     uniform = uniform && l->radius[i] == l->radius[0];
     smallest = GSL_MIN(smallest, l->radius[i]);
   }
   for (size_t i = l->moving; i < l->rows; i++)
     l->push[i] = l->turn[i] = 0;
   l->law = s->law;
-  l->has = (struct contact_features){.friction = scene_has_friction(s),
-                                     .rotation = scene_has_rotation(s),
-                                     .elastic = s->law.restitution == 1,
-                                     .lever = scene_has_lever(s),
-                                     .rolling = scene_has_rolling(s)};
-  l->has.uniform = uniform && !l->has.lever && !l->has.rolling;
+  l->has = contact_features_of(s, uniform);
   l->stride = l->has.rotation ? ROW_SPIN : ROW_PLAIN;
   for (int c = 0; c < 3; c++)
     l->gravity[c] = s->gravity[c];

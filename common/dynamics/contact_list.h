@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: GPL-2.0-or-later */
 /* A bed, or a part of one, as the evaluation of its forces needs it: rows in an
    order that is good for memory, the pairs of rows and the walls near enough to
    matter, and which thread computes what. The kernels, the Jacobian and the
@@ -99,6 +99,24 @@ struct contact_list {
   uint32_t *place; /* of contact_subset.c */
   size_t places;
 };
+
+/* What the contacts of a scene have; equal: all radii are. */
+static inline struct contact_features contact_features_of(const struct scene *s,
+                                                          bool equal) {
+  const bool lever = scene_has_lever(s), rolling = scene_has_rolling(s);
+  return (struct contact_features){.friction = scene_has_friction(s),
+                                   .rotation = scene_has_rotation(s),
+                                   .elastic = s->law.restitution == 1,
+                                   .uniform = equal && !lever && !rolling,
+                                   .lever = lever,
+                                   .rolling = rolling};
+}
+
+/* Row i's rates by force and torque, from its mass and radius. */
+static inline void contact_list_mass(struct contact_list *l, size_t i) {
+  l->push[i] = 1 / l->mass[i];
+  l->turn[i] = -2.5 * l->push[i] / l->radius[i]; /* I = 2 m r^2/5 */
+}
 
 /* Prepares the list of a scene and its spheres; keeps no pointer to either.
    order: the spheres in the rows, each once; NULL: in the order of space.

@@ -10,7 +10,7 @@
 #include "dynamics/internal.h"
 #include "dynamics/jacobian.h"
 #include "dynamics/rates.h"
-#include "model/similarity.h"
+#include "dynamics/scale.h"
 #include "model/travel.h"
 
 void dynamics_free(struct dynamics *d) {
@@ -156,16 +156,7 @@ double dynamics_step_limit(const struct dynamics *d, const double y[],
 }
 
 void dynamics_scale(const struct dynamics *d, double scale[]) {
-  const struct contact_list *l = d->list;
-  const double g = vec3_norm(l->gravity);
-  for (size_t i = 0; i < l->rows; i++) {
-    const struct similarity s = similarity_of(l->radius[i], 1, g);
-    const double speed = s.length / s.time;
-    for (size_t c = 0; c < l->stride; c++)
-      scale[i * l->stride + c] = c < ROW_V   ? 1 / (l->law.kappa * speed)
-                                 : c < ROW_W ? 1
-                                             : 1 / l->radius[i];
-  }
+  contact_list_scale(d->list, scale);
 }
 
 double dynamics_kinetic(const struct dynamics *d, const double y[]) {

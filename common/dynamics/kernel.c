@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: GPL-2.0-or-later */
 /* Compiled once per instruction set with KERNEL_ISA set to its name. Flags
    that matter here: no errno and no traps from sqrt, so that loops vectorise;
    NaN and infinity are kept, since they tell of a step too long. */

@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: GPL-2.0-or-later */
 /* The hot loop: contact forces of a list of contacts, added up by sphere. The
    same source, kernel.c, is compiled for several instruction sets;
    kernel_select gives the best that this machine has. Internal to rates.c.

@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: GPL-2.0-or-later */
 /* The right-hand side over a contact list, shared among its threads. Internal
    to the room. Tested in tests/test_dynamics.c. */
 #ifndef RATES_H

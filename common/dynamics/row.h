@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: GPL-2.0-or-later */
 /* A state vector has one row per sphere: {x, y, z, vx, vy, vz} and, only where
    the scene has friction and rotation, {wx, wy, wz}. */
 #ifndef ROW_H

@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: GPL-2.0-or-later */
 /* Numbers as text: parsed whole or not at all, and written so that they read
    back the same. Safe in any thread. Tested in tests/test_numbers.c. */
 #ifndef NUMBERS_H

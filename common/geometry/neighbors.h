@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: GPL-2.0-or-later */
 /* Pairs of spheres close to each other, found with a cell grid for each class
    of sizes in O(n + pairs), whatever sizes are mixed. */
 #ifndef NEIGHBORS_H

@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: GPL-2.0-or-later */
 /* Operations on double[3]: coordinates in metres, or any other unit that the
    caller uses throughout. Pure inline functions, safe in any thread. */
 #ifndef VEC3_H

@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: GPL-2.0-or-later */
 /* The spheres of a bed: ids, positions, sizes and velocities; vectors are rows
    of three doubles. */
 #ifndef BED_H

@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: GPL-2.0-or-later */
 /* The contact law of P. Strachota, "DEM simulations of settling of spherical
    particles using a soft contact model and adaptive time stepping"
    (ALGORITMY 2024), equations (2.1)-(2.12), as pure inline functions.

@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: GPL-2.0-or-later */
 /* A scene without its spheres: the variant of the model, the contact
    law's parameters, gravity and walls; and one check of it all. */
 #ifndef SCENE_H

@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: GPL-2.0-or-later */
 /* Beds that are alike. Only ratios matter to a bed: kappa r, F0/(m g),
    psi sqrt(g r), vmin/sqrt(g r), lmax/r, e and phi; lengths are by r, times by
    sqrt(r/g), masses by m. So the paper's numbers, which belong to its sphere of

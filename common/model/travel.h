@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: GPL-2.0-or-later */
 /* The time in which a body travels a given distance. Pure, safe in any thread.
    Tested in tests/test_dynamics.c. */
 #ifndef TRAVEL_H

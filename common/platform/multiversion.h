@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: GPL-2.0-or-later */
 /* MULTIVERSION before a function compiles its plain loops for several
    instruction sets; the loader takes the best that the machine has. Needs a
    loader that chooses (glibc) and a compiler that knows the levels by name; not

@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: GPL-2.0-or-later */
 /* exp for loops that are vectorised: glibc's libmvec has vector variants of it,
    which math.h declares to gcc only under -ffast-math. clang is told of them by
    a flag (probe.sh); another C library has none. */

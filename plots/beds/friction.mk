@@ -6,8 +6,8 @@ FRICTION_SEEDS := $(if $(QUICK),4,100)
 $(D)/friction/runs.tsv: plots/beds/friction.mk
 	@mkdir -p $(@D)
 	{ printf 'friction\tseed\n'; \
-	  for friction in $(FRICTIONS); do \
-	    for seed in $$(seq $(FRICTION_SEEDS)); do \
+	  for seed in $$(seq $(FRICTION_SEEDS)); do \
+	    for friction in $(FRICTIONS); do \
 	      printf '%s\t%s\n' $$friction $$seed; \
 	    done; \
 	  done; } > $@

@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "files/lammps_data.h"
+
+#include <gsl/gsl_math.h>
+#include "files/numbers.h"
+
+/* Atom style sphere wants diameter and density instead of radius and mass; a
+   sphere without size is given its mass as the density. */
+static double density(double m, double r) {
+  return r > 0 ? m / (4 * M_PI / 3 * r * r * r) : m;
+}
+
+void lammps_data_write(FILE *out, const char *by, const char *note,
+                       const struct bed *b, long id_offset,
+                       const double box[6]) {
+  static const char axes[] = "xyz";
+  fprintf(out, "LAMMPS data file by %s, t = ", by);
+  numbers_write(out, ' ', 1, &b->t);
+  fprintf(out, " s%s%s\n\n%zu atoms\n1 atom types\n\n", *note ? "; " : "", note,
+          b->n);
+  for (int k = 0; k < 3; k++) {
+    numbers_write(out, ' ', 2, box + 2 * k);
+    fprintf(out, " %clo %chi\n", axes[k], axes[k]);
+  }
+  fprintf(out, "\nAtoms # sphere\n\n");
+  for (size_t i = 0; i < b->n; i++) {
+    const double *x = b->x + 3 * i;
+    const double row[] = {2 * b->r[i], density(b->m[i], b->r[i]), x[0], x[1],
+                          x[2]};
+    fprintf(out, "%ld 1 ", b->id[i] + id_offset);
+    numbers_write(out, ' ', 5, row);
+    fputc('\n', out);
+  }
+  fprintf(out, "\nVelocities\n\n");
+  for (size_t i = 0; i < b->n; i++) {
+    const double *v = b->v + 3 * i, *w = b->w + 3 * i;
+    const double row[] = {v[0], v[1], v[2], w[0], w[1], w[2]};
+    fprintf(out, "%ld ", b->id[i] + id_offset);
+    numbers_write(out, ' ', 6, row);
+    fputc('\n', out);
+  }
+}

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A bed as a data file of LAMMPS, atom style sphere, which read_data takes.
+   Tested in tests/test_export.sh and tests/test_lammps.sh. */
+#ifndef LAMMPS_DATA_H
+#define LAMMPS_DATA_H
+
+#include <stdio.h>
+#include "model/bed.h"
+
+/* by and note go into the first line, which has one line's room; ids are those
+   of the bed plus id_offset, for LAMMPS counts from 1; box: x0 x1 y0 y1 z0 z1
+   (m). Errors stay in ferror(out). */
+void lammps_data_write(FILE *out, const char *by, const char *note,
+                       const struct bed *b, long id_offset,
+                       const double box[6]);
+
+#endif

@@ -1,0 +1,678 @@
+/* SPDX-License-Identifier: GPL-2.0-or-later */
+/* settle-lammps: one bed on many machines. LAMMPS shares the spheres among MPI
+   ranks, hands ghosts on and lists pairs; our kernel computes the forces, and
+   our rkc takes the steps. The scene is a folder by settle --export-lammps, the
+   result a bed. docs/beyond-one-machine.md is its page, tests/test_lammps.sh
+   tests it. */
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <unistd.h>
+#include <vector>
+#include <mpi.h>
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "force.h"
+#include "input.h"
+#include "modify.h"
+#include "neigh_list.h"
+#include "neighbor.h"
+#include "styles.h"
+#include "update.h"
+#include "variable.h"
+extern "C" {
+#include "files/numbers.h"
+#include "model/travel.h"
+#include "rows.h"
+#include "steppers/predictive.h"
+#include "steppers/rkc_step.h"
+}
+#include <gsl/gsl_errno.h>
+
+using LAMMPS_NS::Atom;
+using LAMMPS_NS::bigint;
+using LAMMPS_NS::LAMMPS;
+using LAMMPS_NS::NeighList;
+
+enum { DONE, IO, USAGE, INPUT, INTEGRATION }; /* exit status */
+
+static int rank;
+static bool finished; /* LAMMPS ends a process where it meets an error */
+
+static void ended_by_lammps() {
+  if (finished || rank != 0)
+    return;
+  std::ifstream log("log.lammps");
+  std::string line, error = "log.lammps says why";
+  while (std::getline(log, line))
+    if (line.compare(0, 5, "ERROR") == 0)
+      error = line;
+  fprintf(stderr, "settle-lammps: LAMMPS: %s\n", error.c_str());
+}
+
+/* The same on all ranks, which all come here. */
+[[noreturn]] static void die(int status, const std::string &message) {
+  finished = true;
+  if (rank == 0)
+    fprintf(stderr, "settle-lammps: %s\n", message.c_str());
+  MPI_Barrier(MPI_COMM_WORLD);
+  MPI_Finalize();
+  exit(status);
+}
+
+/* What in.scene says to us. */
+struct plan {
+  double start, end, tol, hinit, travel, gravity[3], id_offset;
+};
+
+struct counts {
+  size_t evaluations, accepted, rejected, builds, sums, stopped;
+  double ghosts; /* summed over evaluations */
+};
+
+class Bed {
+public:
+  Bed(LAMMPS *lammps, const plan &p);
+  ~Bed();
+  void integrate();
+  void rates_at_start(const char *path, bool by_lammps);
+  void gather(FILE *out);
+  void write_stats(const char *path, double wall_seconds);
+
+  double t;
+  counts count;
+
+private:
+  LAMMPS *lammps;
+  const plan &set;
+  PairDem *pair;
+  FixDemRows *carried;
+  struct rows *rows;
+  struct scene scene;
+  size_t stride;
+  double skin, cap; /* cap: longest way in a step (m) */
+  struct rkc_step step;
+  struct predictive control;
+  /* of own rows; filled: with ghosts */
+  std::vector<double> y, start, f0, f1, error, weight, direction, work, filled,
+      reference;
+  double furthest2; /* that a stage was from the reference (m^2) */
+
+  size_t own() const {
+    return static_cast<size_t>(lammps->atom->nlocal);
+  }
+  size_t dim() const {
+    return stride * own();
+  }
+  void resize();
+  void to_lammps(const double *from);
+  void from_lammps(double *to) const;
+  void list();
+  void relay();
+  const double *with_ghosts(const double *from);
+  rkc_problem problem();
+  double largest(double values[], int n);
+  bool attempt(double h, double *next);
+  std::vector<double> gathered(size_t width, const std::vector<double> &mine);
+
+  static int rates(double t, const double y[], double f[], void *bed);
+  static int stage(double t, const double y[], const struct stage *s,
+                   double out[], void *bed);
+  static double total(double part, void *bed);
+};
+
+Bed::Bed(LAMMPS *l, const plan &p)
+    : t(p.start), count(), lammps(l), set(p), rows(nullptr), scene(), stride(0),
+      step(), control(), furthest2(0) {
+  lammps->input->one("fix dem_rows all dem/rows");
+  lammps->input->one("run 0 post no");
+  pair = dynamic_cast<PairDem *>(lammps->force->pair);
+  const int f = lammps->modify->find_fix("dem_rows");
+  carried = dynamic_cast<FixDemRows *>(lammps->modify->fix[f]);
+  if (!pair || !carried || lammps->force->newton_pair)
+    die(INPUT, "in.scene: expected pair_style dem and newton off");
+  scene = pair->scene;
+  std::copy(set.gravity, set.gravity + 3, scene.gravity);
+  std::vector<struct wall> walls;
+  for (int k = 0; k < lammps->modify->nfix; k++)
+    if (auto w = dynamic_cast<FixDemWalls *>(lammps->modify->fix[k]))
+      walls.insert(walls.end(), w->walls.begin(), w->walls.end());
+  scene.walls_count = walls.size();
+  scene.walls = walls.data();
+  skin = lammps->neighbor->skin;
+  cap = set.travel / scene.law.kappa;
+  if (!(set.travel > 0) || skin < 4 * cap)
+    die(INPUT, "in.scene: the skin of neighbor must be 4 travels of a step");
+  if (rows_alloc(&rows, &scene, pair->equal) != GSL_SUCCESS)
+    die(IO, "out of memory");
+  stride = rows_stride(rows);
+  resize();
+  if (rkc_step_init(&step, direction.data()) != GSL_SUCCESS)
+    die(IO, "out of memory");
+  from_lammps(y.data());
+  list();
+}
+
+Bed::~Bed() {
+  rkc_step_free(&step);
+  rows_free(rows);
+}
+
+/* Room for the rows that this rank has now. */
+void Bed::resize() {
+  const size_t n = dim() + 1;
+  for (auto *v : {&y, &start, &f0, &f1, &error, &weight, &direction})
+    v->resize(n);
+  work.resize(5 * n);
+  reference.resize(3 * own() + 1);
+  step.power.direction = direction.data();
+}
+
+void Bed::to_lammps(const double *from) {
+  const Atom *a = lammps->atom;
+  for (size_t i = 0; i < own(); i++, from += stride) {
+    std::copy(from + ROW_X, from + ROW_X + 3, a->x[i]);
+    std::copy(from + ROW_V, from + ROW_V + 3, a->v[i]);
+    if (stride == ROW_SPIN)
+      std::copy(from + ROW_W, from + ROW_W + 3, a->omega[i]);
+  }
+}
+
+/* A sphere of LAMMPS as a row. */
+static void take_row(const Atom *a, size_t i, size_t stride, double *to) {
+  std::copy(a->x[i], a->x[i] + 3, to + ROW_X);
+  std::copy(a->v[i], a->v[i] + 3, to + ROW_V);
+  if (stride == ROW_SPIN)
+    std::copy(a->omega[i], a->omega[i] + 3, to + ROW_W);
+}
+
+void Bed::from_lammps(double *to) const {
+  for (size_t i = 0; i < own(); i++)
+    take_row(lammps->atom, i, stride, to + i * stride);
+}
+
+/* After LAMMPS has listed pairs: the same for the kernel. */
+void Bed::list() {
+  const Atom *a = lammps->atom;
+  const NeighList *l = pair->pairs();
+  const size_t n = own();
+  std::vector<uint32_t> i, j;
+  std::vector<size_t> first(n + 1, 0);
+  for (int k = 0; k < l->inum; k++)
+    first[static_cast<size_t>(l->ilist[k]) + 1] =
+        static_cast<size_t>(l->numneigh[l->ilist[k]]);
+  for (size_t k = 0; k < n; k++)
+    first[k + 1] += first[k];
+  i.resize(first[n]);
+  j.resize(first[n]);
+  for (int k = 0; k < l->inum; k++) {
+    const int s = l->ilist[k];
+    const size_t at = first[static_cast<size_t>(s)];
+    for (int c = 0; c < l->numneigh[s]; c++) {
+      i[at + static_cast<size_t>(c)] = static_cast<uint32_t>(s);
+      j[at + static_cast<size_t>(c)] =
+          static_cast<uint32_t>(l->firstneigh[s][c] & NEIGHMASK);
+    }
+  }
+  struct rows_layout layout = {};
+  layout.count = n;
+  layout.ghosts = static_cast<size_t>(a->nghost);
+  layout.x = n ? a->x[0] : nullptr;
+  layout.radius = a->radius;
+  layout.mass = a->rmass;
+  layout.i = i.data();
+  layout.j = j.data();
+  layout.first = first.data();
+  layout.skin = skin;
+  if (rows_set(rows, &layout) != GSL_SUCCESS)
+    die(IO, "out of memory");
+  rows_weights(rows, weight.data());
+  filled.resize((n + layout.ghosts) * stride + 1);
+  for (size_t k = 0; k < n; k++)
+    std::copy(a->x[k], a->x[k] + 3, &reference[3 * k]);
+  count.builds++;
+}
+
+/* Between steps: spheres go to the rank that they are in, which gets new ghosts
+   and pairs. Their rates and their share of rkc's direction go with them. */
+void Bed::relay() {
+  Atom *a = lammps->atom;
+  to_lammps(y.data());
+  for (size_t i = 0; i < own(); i++) {
+    std::copy(&direction[i * stride], &direction[i * stride] + stride,
+              carried->row[i]);
+    std::copy(&f1[i * stride], &f1[i * stride] + stride,
+              carried->row[i] + ROW_SPIN);
+  }
+  lammps->domain->pbc();
+  if (lammps->domain->box_change) {
+    lammps->domain->reset_box();
+    lammps->comm->setup();
+    if (lammps->neighbor->style)
+      lammps->neighbor->setup_bins();
+  }
+  lammps->comm->exchange();
+  if (a->sortfreq > 0 && count.builds % 20 == 0)
+    a->sort();
+  lammps->comm->borders();
+  lammps->neighbor->build(1);
+  bigint here = a->nlocal, all;
+  MPI_Allreduce(&here, &all, 1, MPI_LMP_BIGINT, MPI_SUM, MPI_COMM_WORLD);
+  if (all != a->natoms)
+    die(INTEGRATION, "t=" + std::to_string(t) + ": " +
+                         std::to_string(a->natoms - all) + " of " +
+                         std::to_string(a->natoms) + " spheres were lost");
+  resize();
+  from_lammps(y.data());
+  for (size_t i = 0; i < own(); i++) {
+    std::copy(carried->row[i], carried->row[i] + stride,
+              &direction[i * stride]);
+    std::copy(carried->row[i] + ROW_SPIN, carried->row[i] + ROW_SPIN + stride,
+              &f1[i * stride]);
+  }
+  list();
+}
+
+/* Own rows, with those of the ghosts after them. */
+const double *Bed::with_ghosts(const double *from) {
+  count.evaluations++;
+  for (size_t i = 0; i < own(); i++) {
+    double way[3];
+    vec3_sub(from + i * stride + ROW_X, &reference[3 * i], way);
+    furthest2 = std::max(furthest2, vec3_dot(way, way));
+  }
+  if (lammps->comm->nprocs == 1)
+    return from;
+  to_lammps(from);
+  lammps->comm->forward_comm();
+  const size_t n = own(), ghosts = static_cast<size_t>(lammps->atom->nghost);
+  count.ghosts += static_cast<double>(ghosts);
+  std::copy(from, from + dim(), filled.begin());
+  for (size_t i = n; i < n + ghosts; i++)
+    take_row(lammps->atom, i, stride, &filled[i * stride]);
+  return filled.data();
+}
+
+/* A rate that is not finite makes the error of the step so, on all ranks. */
+int Bed::rates(double, const double y[], double f[], void *params) {
+  Bed *b = static_cast<Bed *>(params);
+  rows_rates(b->rows, b->with_ghosts(y), f);
+  return GSL_SUCCESS;
+}
+
+int Bed::stage(double, const double y[], const struct stage *s, double out[],
+               void *params) {
+  Bed *b = static_cast<Bed *>(params);
+  rows_stage(b->rows, b->with_ghosts(y), s, out);
+  return GSL_SUCCESS;
+}
+
+double Bed::total(double part, void *params) {
+  static_cast<Bed *>(params)->count.sums++;
+  MPI_Allreduce(MPI_IN_PLACE, &part, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+  return part;
+}
+
+/* Over all ranks; what is not a number is infinite, as MPI_MAX drops it. */
+double Bed::largest(double values[], int n) {
+  count.sums++;
+  for (int k = 0; k < n; k++)
+    if (std::isnan(values[k]))
+      values[k] = INFINITY;
+  MPI_Allreduce(MPI_IN_PLACE, values, n, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+  return values[0];
+}
+
+rkc_problem Bed::problem() {
+  rkc_problem p = {};
+  p.dim = dim();
+  p.rates = rates;
+  p.stage = stage;
+  p.params = this;
+  p.weight = weight.data();
+  p.total = total;
+  p.threads = 1;
+  return p;
+}
+
+/* A step of length h; if it is not good enough y is what it was. next: the
+   length to go on with. */
+bool Bed::attempt(double h, double *next) {
+  const rkc_problem p = problem();
+  furthest2 = 0;
+  *next = h;
+  if (rkc_step_try(&step, &p, t, h, y.data(), error.data(), f0.data(),
+                   f1.data(), work.data()) != GSL_SUCCESS) {
+    *next = h / 2;
+    return false;
+  }
+  double worst[2] = {0, furthest2};
+  for (size_t i = 0; i < p.dim; i++) {
+    const double e = std::fabs(error[i]) * weight[i] / set.tol;
+    if (!(e <= worst[0]) && !std::isnan(worst[0]))
+      worst[0] = e;
+  }
+  largest(worst, 2);
+  /* beyond what the list holds for the error means nothing */
+  if (!(std::sqrt(worst[1]) <= skin / 2)) {
+    *next = h / 2;
+    step.power.known = false;
+    return false;
+  }
+  return predictive_accepts(&control, worst[0], 2, next);
+}
+
+void Bed::integrate() {
+  double next = set.hinit;
+  rates(t, y.data(), f1.data(), this);
+  while (t < set.end) {
+    double most[2] = {0, 0}; /* 1/longest step, way from the reference */
+    for (size_t i = 0; i < own(); i++) {
+      const double *row = &y[i * stride];
+      double way[3];
+      most[0] = std::max(
+          most[0], 1 / travel_time(vec3_norm(row + ROW_V),
+                                   vec3_norm(&f1[i * stride] + ROW_V), cap));
+      vec3_sub(row + ROW_X, &reference[3 * i], way);
+      most[1] = std::max(most[1], vec3_norm(way));
+    }
+    largest(most, 2);
+    if (most[1] + 1.5 * cap > skin / 2)
+      relay();
+    double h = std::min(next, 1 / most[0]), done;
+    std::copy(y.begin(), y.end(), start.begin());
+    std::copy(f1.begin(), f1.end(), f0.begin());
+    for (;;) {
+      done = std::min(h, set.end - t);
+      if (attempt(done, &h))
+        break;
+      std::copy(start.begin(), start.end(), y.begin());
+      count.rejected++;
+      if (!(h > 1e-14 * std::max(1., std::fabs(t))))
+        die(INTEGRATION,
+            "t=" + std::to_string(t) + ": no step is short enough");
+    }
+    count.accepted++;
+    if (done < set.end - t) {
+      t += done;
+      next = h;
+    } else
+      t = set.end;
+  }
+  to_lammps(y.data());
+}
+
+/* One number of width columns for each sphere of all ranks, at the root, by the
+   first column. */
+std::vector<double> Bed::gathered(size_t width,
+                                  const std::vector<double> &mine) {
+  std::vector<int> size(static_cast<size_t>(lammps->comm->nprocs)),
+      at(size.size());
+  const int here = static_cast<int>(mine.size());
+  MPI_Gather(&here, 1, MPI_INT, size.data(), 1, MPI_INT, 0, MPI_COMM_WORLD);
+  int all = 0;
+  for (size_t k = 0; k < size.size(); k++) {
+    at[k] = all;
+    all += size[k];
+  }
+  std::vector<double> rows_of(rank ? 0 : static_cast<size_t>(all)), sorted;
+  MPI_Gatherv(mine.data(), here, MPI_DOUBLE, rows_of.data(), size.data(),
+              at.data(), MPI_DOUBLE, 0, MPI_COMM_WORLD);
+  std::vector<size_t> order(rows_of.size() / width);
+  for (size_t k = 0; k < order.size(); k++)
+    order[k] = k;
+  std::sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+    return rows_of[a * width] < rows_of[b * width];
+  });
+  for (size_t k : order)
+    sorted.insert(sorted.end(), &rows_of[k * width],
+                  &rows_of[k * width] + width);
+  return sorted;
+}
+
+/* The bed: the keys of start.tsv with the time that was reached. */
+void Bed::gather(FILE *out) {
+  enum { WIDTH = 12 };
+  const Atom *a = lammps->atom;
+  std::vector<double> mine;
+  for (int i = 0; i < a->nlocal; i++) {
+    mine.push_back(static_cast<double>(a->tag[i]) - set.id_offset);
+    mine.insert(mine.end(), a->x[i], a->x[i] + 3);
+    mine.push_back(a->radius[i]);
+    mine.push_back(a->rmass[i]);
+    mine.insert(mine.end(), a->v[i], a->v[i] + 3);
+    mine.insert(mine.end(), a->omega[i], a->omega[i] + 3);
+  }
+  const std::vector<double> all = gathered(WIDTH, mine);
+  if (rank)
+    return;
+  std::ifstream head("start.tsv");
+  std::string line;
+  while (std::getline(head, line) && line[0] == '#')
+    if (line.compare(0, 4, "# t=") == 0) {
+      fputs("# t=", out);
+      numbers_write(out, ' ', 1, &t);
+      fputc('\n', out);
+    } else
+      fprintf(out, "%s\n", line.c_str());
+  fprintf(out, "%s\n", line.c_str()); /* columns */
+  const bool spin = line.find("wx") != std::string::npos;
+  for (size_t k = 0; k < all.size(); k += WIDTH) {
+    fprintf(out, "%.0f\t", all[k]);
+    numbers_write(out, '\t', spin ? WIDTH - 1 : WIDTH - 4, &all[k + 1]);
+    fputc('\n', out);
+  }
+  fputs("# status=ok\n", out);
+}
+
+/* id and rates of each sphere, for tests: by the kernel, or by the pair style
+   and the fixes. */
+void Bed::rates_at_start(const char *path, bool by_lammps) {
+  const Atom *a = lammps->atom;
+  const size_t width = stride + 1;
+  rates(t, y.data(), f1.data(), this);
+  std::vector<double> mine;
+  for (size_t i = 0; i < own(); i++) {
+    const double m = a->rmass[i], r = a->radius[i];
+    mine.push_back(static_cast<double>(a->tag[i]) - set.id_offset);
+    for (size_t c = 0; c < stride; c++)
+      mine.push_back(!by_lammps || c < ROW_V ? f1[i * stride + c]
+                     : c < ROW_W             ? a->f[i][c - ROW_V] / m
+                                 : a->torque[i][c - ROW_W] / (0.4 * m * r * r));
+  }
+  const std::vector<double> all = gathered(width, mine);
+  if (rank)
+    return;
+  FILE *out = fopen(path, "w");
+  if (!out)
+    return;
+  for (size_t k = 0; k < all.size(); k += width) {
+    numbers_write(out, '\t', width, &all[k]);
+    fputc('\n', out);
+  }
+  fclose(out);
+}
+
+void Bed::write_stats(const char *path, double wall_seconds) {
+  double ghosts = count.ghosts / static_cast<double>(count.evaluations), most;
+  MPI_Reduce(&ghosts, &most, 1, MPI_DOUBLE, MPI_MAX, 0, MPI_COMM_WORLD);
+  if (rank)
+    return;
+  /* each rank exchanges with its neighbours in x, then in y */
+  const int *grid = lammps->comm->procgrid;
+  int messages = 0;
+  for (int k = 0; k < 3; k++)
+    messages += grid[k] > 2 ? 2 : grid[k] > 1;
+  FILE *out = fopen(path, "w");
+  if (!out)
+    die(IO, std::string(path) + ": cannot be written");
+  fprintf(out, "method\trkc\nranks\t%d\nspheres\t%ld\nt_end\t",
+          lammps->comm->nprocs, static_cast<long>(lammps->atom->natoms));
+  numbers_write(out, '\t', 1, &t);
+  fprintf(out,
+          "\nrhs_evaluations\t%zu\npower_evaluations\t%zu\n"
+          "steps_accepted\t%zu\nsteps_rejected\t%zu\npair_list_builds\t%zu\n"
+          "reductions\t%zu\nmost_ghosts\t%.0f\n"
+          "messages_per_evaluation\t%d\nbytes_per_evaluation\t%.0f\n"
+          "wall_seconds\t%g\n",
+          count.evaluations, step.report.power_evaluations, count.accepted,
+          count.rejected, count.builds, count.sums, most, messages,
+          most * ROW_SPIN * sizeof(double), wall_seconds);
+  fclose(out);
+}
+
+static const char help[] =
+    "Usage: [mpirun -np N] settle-lammps [OPTION...] FOLDER > bed.tsv\n"
+    "Settles the bed that settle --export-lammps FOLDER has written, on N\n"
+    "ranks, by Runge-Kutta-Chebyshev with LAMMPS for everything else.\n"
+    "\n"
+    "Options:\n"
+    "  --time X           end of the run, s; else that of settle\n"
+    "  --tol X            tolerance, m/s; else that of settle\n"
+    "  --stats NAME       file for the solver's statistics\n"
+    "  --script NAME      run this input of LAMMPS in the folder instead, "
+    "such\n"
+    "                     as in.run, the same bed by a fixed step\n"
+    "  --rates NAME       write the rates at the start instead\n"
+    "  --lammps           the rates by the pair style, not by the kernel\n"
+    "  -h, --help         this text\n"
+    "  --version          name and version\n"
+    "\n"
+    "Exit status: 0 done, 1 input, output or LAMMPS failed, 2 a mistake in the "
+    "use,\n  3 bad input, 4 the integration failed.\n";
+
+struct options {
+  double time = NAN, tol = NAN;
+  std::string folder, script, rates, stats;
+  bool lammps = false;
+};
+
+static double positive(const std::string &name, const std::string &word) {
+  double x;
+  if (!number_parse(word.c_str(), &x) || !(x > 0))
+    die(USAGE, name + " " + word + ": expected a number above 0");
+  return x;
+}
+
+static options parse(int argc, char **argv) {
+  options o;
+  for (int k = 1; k < argc; k++) {
+    std::string word = argv[k], value;
+    const size_t equals = word.find('=');
+    if (word == "--help" || word == "-h" || word == "--version") {
+      if (rank == 0)
+        fputs(word == "--version" ? "settle-lammps " DEM_VERSION "\n" : help,
+              stdout);
+      const bool written = fflush(stdout) == 0;
+      finished = true;
+      MPI_Finalize();
+      exit(written ? DONE : IO);
+    }
+    if (word[0] != '-') {
+      if (!o.folder.empty())
+        die(USAGE, "'" + word + "': expected one folder");
+      o.folder = word;
+      continue;
+    }
+    if (word == "--lammps") {
+      o.lammps = true;
+      continue;
+    }
+    if (equals != std::string::npos) {
+      value = word.substr(equals + 1);
+      word = word.substr(0, equals);
+    } else if (++k < argc)
+      value = argv[k];
+    else
+      die(USAGE, word + ": expected a value, or it is no option");
+    if (word == "--time")
+      o.time = positive(word, value);
+    else if (word == "--tol")
+      o.tol = positive(word, value);
+    else if (word == "--stats")
+      o.stats = value;
+    else if (word == "--script")
+      o.script = value;
+    else if (word == "--rates")
+      o.rates = value;
+    else
+      die(USAGE, word + ": no such option (try 'settle-lammps --help')");
+  }
+  if (o.folder.empty())
+    die(USAGE, "expected a folder by settle --export-lammps (try "
+               "'settle-lammps --help')");
+  char *here = getcwd(nullptr, 0);
+  for (std::string *path :
+       {&o.stats, &o.rates}) /* LAMMPS works in the folder */
+    if (!path->empty() && (*path)[0] != '/')
+      *path = std::string(here) + "/" + *path;
+  free(here);
+  return o;
+}
+
+/* What settle has left in in.scene for us. */
+static plan plan_of(LAMMPS *lammps, const options &o) {
+  char name[] = "dem_run";
+  const char *text = lammps->input->variable->find(name) < 0
+                         ? nullptr
+                         : lammps->input->variable->retrieve(name);
+  plan p;
+  if (!text || sscanf(text, "%lg %lg %lg %lg %lg %lg %lg %lg %lg", &p.start,
+                      &p.end, &p.tol, &p.hinit, &p.travel, &p.gravity[0],
+                      &p.gravity[1], &p.gravity[2], &p.id_offset) != 9)
+    die(INPUT, o.folder +
+                   "/in.scene: expected the variable dem_run that settle "
+                   "--export-lammps writes");
+  if (!std::isnan(o.time))
+    p.end = o.time;
+  if (!std::isnan(o.tol))
+    p.tol = o.tol;
+  if (p.end < p.start)
+    die(USAGE, "--time: the start is later");
+  return p;
+}
+
+int main(int argc, char **argv) {
+  MPI_Init(&argc, &argv);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const options o = parse(argc, argv);
+  if (chdir(o.folder.c_str()) != 0 || access("in.scene", R_OK) != 0)
+    die(INPUT, o.folder + ": no folder with in.scene, as settle "
+                          "--export-lammps writes it");
+  atexit(ended_by_lammps);
+  char words[][16] = {"settle-lammps", "-log", "log.lammps",
+                      "-screen",       "none", "-nocite"};
+  char *arguments[] = {words[0], words[1], words[2],
+                       words[3], words[4], words[5]};
+  LAMMPS *lammps = new LAMMPS(6, arguments, MPI_COMM_WORLD);
+  styles_add(lammps);
+  lammps->input->file(o.script.empty() ? "in.scene" : o.script.c_str());
+  if (o.script.empty()) {
+    const plan p = plan_of(lammps, o);
+    Bed bed(lammps, p);
+    if (!o.rates.empty())
+      bed.rates_at_start(o.rates.c_str(), o.lammps);
+    else {
+      const double begun = MPI_Wtime();
+      bed.integrate();
+      const double wall = MPI_Wtime() - begun;
+      bed.gather(stdout);
+      if (!o.stats.empty())
+        bed.write_stats(o.stats.c_str(), wall);
+    }
+  }
+  delete lammps;
+  finished = true;
+  MPI_Finalize();
+  if (fflush(stdout) != 0 || ferror(stdout)) {
+    fprintf(stderr,
+            "settle-lammps: standard output: it could not be written\n");
+    return IO;
+  }
+  return DONE;
+}
