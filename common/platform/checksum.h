@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: GPL-2.0-or-later */
 /* The CRC-32 of gzip, zlib and PNG (ISO 3309): it tells any change of up to 32
    bits in a row, and all but one in 2^32 of others. Safe in any thread. Tested
    in tests/test_store.c. */

@@ -8,7 +8,8 @@ LAMMPS_INCLUDE ?= /usr/include/lammps
 LAMMPS_LIBS ?= -llammps
 LAMMPS_OF := steppers/chebyshev steppers/power steppers/predictive \
   steppers/rkc_step steppers/stage dynamics/kernel_select dynamics/rates \
-  dynamics/scale model/scene model/similarity files/numbers
+  dynamics/scale model/scene model/similarity files/numbers \
+  platform/store platform/checksum
 LAMMPS_OBJECTS := $(LAMMPS_OF:%=$(O)/lammps/common/%.o) \
   $(O)/lammps/settle/lammps/rows.o
 LAMMPS_CXX_OBJECTS := $(O)/lammps/styles.o $(O)/lammps/host.o

@@ -9,6 +9,7 @@ enum {
   GSL_SUCCESS = 0,
   GSL_FAILURE = -1,
   GSL_EINVAL = 4,
+  GSL_EFAILED = 5,
   GSL_ENOMEM = 8,
   GSL_EBADFUNC = 9
 };
