@@ -77,12 +77,15 @@ static void write_scene(FILE *out, const struct settings *set,
       (double[]){l->f0, l->kappa, l->psi, l->restitution, l->friction, l->vmin,
                  l->lmax, l->rolling});
   fprintf(out,
-          " %d\npair_coeff * *\n# px py pz nx ny nz of each\n"
+          " %d\npair_coeff * *\n# px py pz nx ny nz r of each: a "
+          "plane with its outward normal, or where r > 0\n# a cylinder "
+          "with its axis\n"
           "fix walls all dem/walls",
           l->lever == LEVER_CONTACT);
   for (size_t k = 0; k < s->walls_count; k++) {
     put(out, 3, s->walls[k].point);
     put(out, 3, s->walls[k].normal);
+    put(out, 1, &s->walls[k].radius);
   }
   fprintf(out, "\nfix gravity all gravity");
   put(out, 1, &g);

@@ -150,16 +150,19 @@ int main(void) {
     s.model = cases[c].model;
     s.law.lever = cases[c].lever;
     s.law.rolling = cases[c].rolling;
-    /* a floor, and a wall that leans over it, as on the command line */
+    /* a floor, a wall and a cylinder that lean, as on the command line */
     CHECK(scene_add_wall(&s, (double[]){0, 0, 0}, (double[]){0, 0, -1}) ==
           GSL_SUCCESS);
     CHECK(scene_add_wall(&s, (double[]){1.15, 0, 0.5},
                          (double[]){1, 0.1, 0.1}) == GSL_SUCCESS);
+    CHECK(scene_add_cylinder(&s, (double[]){0.5, 0.5, 0}, (double[]){0.1, 0, 1},
+                             0.8) == GSL_SUCCESS);
     write_bed(&bed);
     char options[256];
     snprintf(options, sizeof options,
              "--kappa 150 --f0 10 --psi 10 --vmin 0.01 --lmax 0.1 %s --wall "
-             "0,0,0,0,0,-1 --wall 1.15,0,0.5,1,0.1,0.1",
+             "0,0,0,0,0,-1 --wall 1.15,0,0.5,1,0.1,0.1 --cylinder "
+             "0.5,0.5,0,0.1,0,1,0.8",
              cases[c].options);
     compare(&s, &bed, options);
     scene_free(&s);

@@ -25,6 +25,7 @@ int rows_alloc(struct rows **out, const struct scene *s, bool equal) {
   memcpy(l->gravity, s->gravity, sizeof l->gravity);
   l->walls_count = s->walls_count;
   l->walls = malloc((s->walls_count + 1) * sizeof *l->walls);
+  l->cylinders = s->walls_count && s->walls[s->walls_count - 1].radius > 0;
   l->threads = 1;
   l->part = &r->part;
   l->incoming = r->incoming;

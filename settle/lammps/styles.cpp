@@ -166,16 +166,18 @@ void PairDem::compute(int, int) {
 
 FixDemWalls::FixDemWalls(LAMMPS *lammps, int count, char **words)
     : Fix(lammps, count, words) {
-  if ((count - 3) % 6)
+  if ((count - 3) % 7)
     error->all(
         FLERR,
-        std::string("fix dem/walls: expected a point and a normal for each"));
-  for (int k = 3; k < count; k += 6) {
+        std::string(
+            "fix dem/walls: expected a point, a normal and a radius for each"));
+  for (int k = 3; k < count; k += 7) {
     struct wall w;
     for (int c = 0; c < 3; c++) {
       w.point[c] = number(error, words[k + c]);
       w.normal[c] = number(error, words[k + 3 + c]);
     }
+    w.radius = number(error, words[k + 6]);
     const double length = vec3_norm(w.normal);
     if (!(length > 0))
       error->all(FLERR, std::string("fix dem/walls: a normal has no length"));
@@ -200,12 +202,12 @@ void FixDemWalls::post_force(int) {
   for (int i = 0; i < atom->nlocal; i++)
     for (const struct wall &w : walls) {
       const double r = atom->radius[i];
-      const double gap = wall_distance(&w, atom->x[i]) - r;
+      double n[3], on_sphere[3], turn[3], other[3];
+      const double gap = wall_nearest(&w, atom->x[i], n) - r;
       if (gap > pair->scene.law.lmax)
         continue;
-      double n[3], on_sphere[3], turn[3], other[3];
-      for (int k = 0; k < 3; k++)
-        n[k] = -w.normal[k];
+      for (double &component : n) /* inward, to the sphere */
+        component = -component;
       contact_between(&pair->scene, n, gap, {atom->v[i], atom->omega[i], r},
                       {nullptr, nullptr, 0}, on_sphere, turn, other);
       vec3_axpy(1, on_sphere, atom->f[i]);

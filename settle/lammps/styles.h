@@ -33,7 +33,8 @@ private:
   double largest; /* radius (m) */
 };
 
-/* fix ID all dem/walls PX PY PZ NX NY NZ ...: the law is that of the pair
+/* fix ID all dem/walls PX PY PZ NX NY NZ R ...: planes, and cylinders
+   of the radius R; the law is that of the pair
    style. */
 class FixDemWalls : public LAMMPS_NS::Fix {
 public:
