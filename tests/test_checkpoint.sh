@@ -40,8 +40,8 @@ same_after_kills dopri5 "${small[@]}" --method dopri5 --model friction \
 same_after_kills 'rk8pd, standard' "${small[@]}" --method rk8pd \
   --control standard --model basic --time 1
 same_after_kills rkc "${small[@]}" --method rkc --time 1
-same_after_kills 'rkc, paper, all pairs' "${small[@]}" --pairs all --method rkc \
-  --control paper --time 0.8
+same_after_kills 'rkc, all pairs' "${small[@]}" --pairs all --method rkc \
+  --control standard --time 0.6
 same_after_kills verlet "${small[@]}" --method verlet --step 1e-4 --time 0.8
 same_after_kills multirate "${small[@]}" --method multirate --time 2
 same_after_kills 'multirate, until rest' "${small[@]}" --until-rest --time 10 \
