@@ -132,12 +132,16 @@ clients: all ## have the programs that beds are handed to read them (minutes)
 FUZZ_CC ?= clang
 FUZZ_SECONDS ?= 60
 FUZZ_SOURCES := tests/fuzz_readers.c $(wildcard common/files/*.c) \
-	common/model/bed.c
+	common/model/bed.c common/platform/store.c common/platform/checksum.c
 $(B)/fuzz/readers: $(FUZZ_SOURCES) $(wildcard common/files/*.h)
 	@mkdir -p $(@D)
 	$(FUZZ_CC) -std=c11 -O1 -g -fsanitize=fuzzer,address,undefined \
 	  -fno-sanitize-recover=undefined $(WARNINGS) $(INCLUDES) $(GSL_CFLAGS) \
 	  $(FUZZ_SOURCES) $(GSL_LIBS) -o $@
+
+INSTANTS ?= 200
+torture: all ## kill runs and go on, let each call fail, INSTANTS=200 (an hour)
+	B=$(B) tests/torture.sh $(INSTANTS)
 
 fuzz: $(B)/fuzz/readers ## feed random files to the readers, FUZZ_SECONDS=60 (clang)
 	@mkdir -p $(B)/fuzz/corpus
@@ -225,4 +229,4 @@ help: ## this list
 
 include plots/rules.mk plots/captions.mk settle/lammps/lammps.mk
 
-.PHONY: all check check-quick clients sanitize tidy fuzz deps deps-developer demo man install uninstall clean help
+.PHONY: all check check-quick clients sanitize tidy torture fuzz deps deps-developer demo man install uninstall clean help
