@@ -34,7 +34,7 @@ static void *grown(void *p, size_t count) {
   return p;
 }
 
-/* What must not differ, since the law is one of kappa alone. */
+/* Parameters that must not differ, since the law is one of kappa alone. */
 static const char *const same[] = {"model", "friction", "restitution",
                                    "f0",    "vmin",     NULL};
 

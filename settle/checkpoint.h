@@ -11,7 +11,7 @@
 #include "program/files.h"
 #include "settings.h"
 
-/* What a run is of, beside its settings. */
+/* The parts of a run, beside its settings. */
 struct setup {
   struct settings *set;
   struct option_spec *options;

@@ -16,7 +16,7 @@ static long id_offset(const struct bed *b) {
   return 1 - least;
 }
 
-/* What all spheres are in, with a diameter to spare. */
+/* A box around all spheres, with a diameter to spare. */
 static void box_of(const struct bed *b, double box[6]) {
   for (size_t k = 0; k < 3; k++) {
     box[2 * k] = GSL_POSINF;

@@ -36,7 +36,7 @@ struct run {
   char mark[160]; /* of the bed, at its end */
 };
 
-/* What is done is not lost with what is still to be done. */
+/* Has the frames so far on the disk, whatever becomes of the rest. */
 static void flush_frames(struct run *r) {
   if (fflush(r->out) == 0 && !ferror(r->out))
     return;

@@ -19,7 +19,7 @@
 #include "model/rest.h"
 #include "program/integration.h"
 
-/* At most so many trials; those of the line. */
+/* The most trials, and those that the line is laid through. */
 enum { TRIALS = 10, NEAR = 5 };
 
 /* Standard deviation of a bed of 200 over seeds (docs/softness.md). */

@@ -34,7 +34,7 @@ end() { # its status
 }
 
 # Until a run has made checkpoints, or has ended
-wait_for_checkpoints() { # NUMBER: at least so many that were not there before
+wait_for_checkpoints() { # NUMBER: at least this number of new ones
   local seen=$before now made=0 k
   for ((k = 0; k < 2000 && made < $1; k++)); do
     kill -0 $pid 2>/dev/null || return 0

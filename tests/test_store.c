@@ -124,7 +124,8 @@ static void test_short(void) {
 }
 
 /* What stands in the file, and what is asked for. */
-static int status_of(void (*put)(struct store *), void (*take)(struct store *)) {
+static int status_of(void (*put)(struct store *),
+                     void (*take)(struct store *)) {
   FILE *file = tmpfile();
   struct store in = store_saving(file);
   put(&in);
@@ -216,16 +217,16 @@ static int begin(struct integrator **it, const char *method,
                                       .tol = 1e-3,
                                       .hinit = 0.01,
                                       .step = step};
-  return integrate_alloc(
-      it, &o,
-      &(struct integrate_problem){.system = {.function = pulses, .dimension = 2},
-                                  .scale = scale,
-                                  .row = 2,
-                                  .positions = 1},
-      t, start);
+  return integrate_alloc(it, &o,
+                         &(struct integrate_problem){
+                             .system = {.function = pulses, .dimension = 2},
+                             .scale = scale,
+                             .row = 2,
+                             .positions = 1},
+                         t, start);
 }
 
-/* Goes on after so many steps in another integrator, beside the first. */
+/* Goes on after a number of steps in another integrator, beside the first. */
 static void test_goes_on(const char *method, const char *control, double step,
                          int steps) {
   struct integrator *first, *second;

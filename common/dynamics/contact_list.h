@@ -100,7 +100,7 @@ struct contact_list {
   size_t places;
 };
 
-/* What the contacts of a scene have; equal: all radii are. */
+/* Features of the contacts of a scene; equal: all radii are. */
 static inline struct contact_features contact_features_of(const struct scene *s,
                                                           bool equal) {
   const bool lever = scene_has_lever(s), rolling = scene_has_rolling(s);

@@ -31,7 +31,6 @@ struct multirate_report multirate_report(const struct multirate *m);
    one. */
 void multirate_steps(const struct multirate *m, size_t count, size_t steps[]);
 
-
 /* The parameters of an engine. */
 struct multirate_problem {
   struct dynamics *dynamics;

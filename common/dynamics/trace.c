@@ -21,7 +21,7 @@ struct trace {
   size_t count, size;
   struct moment *at;
   double *values; /* 2 * stride each */
-  size_t *last; /* of each row, for trace_at: count where there is none */
+  size_t *last;   /* of each row, for trace_at: count where there is none */
 };
 
 int trace_alloc(struct trace **out, const struct contact_list *whole) {

@@ -26,7 +26,6 @@ void trace_erase(struct trace *r, size_t from, size_t to);
    GSL_ENOMEM. */
 int trace_append(struct trace *r, const struct level *l, double t);
 
-
 /* Puts the rows that are in it to where they were at time t, given their state
    y0 and rates f0 at the start, t0. */
 void trace_at(const struct trace *r, double t0, const double y0[],

@@ -87,11 +87,11 @@ enum { UNITS = sizeof units / sizeof *units };
 
 static enum dimension dimension_of(enum column c) {
   return c == COLUMN_ID || c == COLUMN_OTHER || c == COLUMN_FIXED ? PURE
-         : c <= COLUMN_D                     ? LENGTH
-         : c == COLUMN_M                     ? MASS
-         : c == COLUMN_T                     ? TIME
-         : c >= COLUMN_VX && c <= COLUMN_VZ  ? SPEED
-                                             : SPIN;
+         : c <= COLUMN_D                                          ? LENGTH
+         : c == COLUMN_M                                          ? MASS
+         : c == COLUMN_T                                          ? TIME
+         : c >= COLUMN_VX && c <= COLUMN_VZ                       ? SPEED
+                                                                  : SPIN;
 }
 
 static struct text trimmed(struct text t) {
@@ -611,10 +611,11 @@ int columns_of_list(struct columns *c, const char *list) {
     const struct meaning m = meaning_of(name, none);
     if ((m.column == COLUMN_OTHER && !same_word(name, "-")) ||
         is_letter_word(name, 'T')) {
-      snprintf(c->wrong, sizeof c->wrong,
-               "'%.*s': expected id x y z r d m vx vy vz wx wy wz t fixed, or - "
-               "for a column to skip",
-               name.length > 40 ? 40 : (int)name.length, name.at);
+      snprintf(
+          c->wrong, sizeof c->wrong,
+          "'%.*s': expected id x y z r d m vx vy vz wx wy wz t fixed, or - "
+          "for a column to skip",
+          name.length > 40 ? 40 : (int)name.length, name.at);
       return GSL_EINVAL;
     }
     status = columns_add(c, m.column, name);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What others expect of the random close packing of hard spheres without
+/* Expectations of others for the random close packing of hard spheres without
    friction, by their sizes alone: figures to hold a bed against. Not in the
    paper. Safe in any thread. Tested in tests/test_mixture.c. */
 #ifndef CLOSE_PACKING_H

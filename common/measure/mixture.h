@@ -7,8 +7,9 @@
 
 #include "measure/network.h"
 
-/* The most classes, and their number without edges given: each radius its own
-   if there are no more than MIXTURE_MOST, else MIXTURE_PARTS of equal volume. */
+/* The most classes; and their number without edges given: a class for each
+   radius if these are no more than MIXTURE_MOST, else MIXTURE_PARTS of equal
+   volume. */
 enum { MIXTURE_MOST = 9, MIXTURE_PARTS = 4 };
 
 struct mixture_class {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later */
-/* What a computation remembers from one step to the next, put into a file and
+/* The memory of a computation from one step to the next, put into a file and
    taken out of it again to the last bit, so that it goes on as if it had never
    stopped. One function of each module does both,
 

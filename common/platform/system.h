@@ -18,8 +18,8 @@ size_t system_thread(void);
    not tell. */
 long system_peak_memory(void);
 
-/* What made this program and what it computes with, in one line: compiler, C
-   library, GSL. Other ones may round otherwise. */
+/* Compiler, C library and GSL of this program, in one line. Other ones may
+ * round otherwise. */
 enum { SYSTEM_BUILD_SIZE = 256 };
 void system_build(char text[SYSTEM_BUILD_SIZE]);
 

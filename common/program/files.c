@@ -297,7 +297,7 @@ static bool begins_as_marked(int fd, const struct output_mark *m) {
          (!m->length || sum.rest == m->sum.rest);
 }
 
-/* What a process that was killed has left. */
+/* Opens the file that a killed process has left. */
 static bool open_left(struct output_file *f, const struct output_mark *m) {
   const int fd = m->partial ? open(m->partial, O_RDWR | O_CLOEXEC) : -1;
   if (fd < 0)
@@ -314,7 +314,7 @@ static bool open_left(struct output_file *f, const struct output_mark *m) {
   return f->stream != NULL;
 }
 
-/* What a process has committed, which goes on in another file. */
+/* A copy of the part that a process has committed, to go on in another file. */
 static bool open_committed(struct output_file *f, struct output_mark *m,
                            const struct stat *st) {
   const int fd = open(f->target, O_RDONLY | O_CLOEXEC);

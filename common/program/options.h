@@ -77,8 +77,8 @@ struct option_texts {
 void option_texts_free(struct option_texts *t);
 
 /* All values (platform/store.h), but for those with a function of their own
-   (each). What was given stays as it is when the others are taken out; texts
-   are then kept in t. */
+   (each). Options that were given stay as they are when the others are taken
+   out; texts are then kept in t. */
 void options_store(struct option_spec *options, struct option_texts *t,
                    struct store *s);
 

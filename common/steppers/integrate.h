@@ -166,7 +166,7 @@ int integrate_at(const struct integrator *it, double t, double y[]);
 
 /* All that the next steps follow from (platform/store.h): taken out by an
    integrator of the same problem and options, whatever its start, the steps are
-   the same to the last bit. What was within the last step is not kept. GSL's
+   the same to the last bit. States within the last step are not kept. GSL's
    own right-hand side is the caller's to store. Not for a method that is opaque
    (GSL_EINVAL). Tested in tests/test_store.c. */
 void integrate_store(struct integrator *it, struct store *s);

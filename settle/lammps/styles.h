@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later */
-/* What LAMMPS lacks for a bed: the contact law between spheres and at walls
-   (common/model/contact.h), and room for what travels with a sphere. */
+/* The parts of a bed that LAMMPS lacks: the contact law between spheres and at
+   walls (common/model/contact.h), and room for what travels with a sphere. */
 #ifndef STYLES_H
 #define STYLES_H
 
