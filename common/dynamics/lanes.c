@@ -499,7 +499,8 @@ int lanes_alloc(struct lanes **out, struct dynamics *d, double tol,
 
 /* Counts of a depth are added up, and taken out by the first lane. */
 static void store_counts(struct lanes *all, size_t depth, struct store *s) {
-  struct level_counts sum = {0};
+  const struct level_counts none = {0};
+  struct level_counts sum = none;
   size_t power = 0;
   for (size_t k = 0; k < all->count; k++) {
     const struct level *l = all->lane[k].level[depth];
@@ -518,7 +519,7 @@ static void store_counts(struct lanes *all, size_t depth, struct store *s) {
     return;
   for (size_t k = 0; k < all->count; k++) {
     struct level *l = all->lane[k].level[depth];
-    l->counts = k ? (struct level_counts){0} : sum;
+    l->counts = k ? none : sum;
     l->power.evaluations = k ? 0 : power;
   }
 }

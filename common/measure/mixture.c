@@ -94,7 +94,7 @@ static void add_contacts(struct mixture *m, const struct bed *b,
 
 void mixture_measure(struct mixture *m, const struct bed *b, const bool *inside,
                      const struct network *w) {
-  double all = 0, height = 0, squares = 0, first[MIXTURE_MOST];
+  double all = 0, height = 0, squares = 0, first[MIXTURE_MOST] = {0};
   for (size_t k = 0; k < m->count; k++)
     m->at[k] =
         (struct mixture_class){.low = m->at[k].low, .high = m->at[k].high};
