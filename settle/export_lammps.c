@@ -55,7 +55,7 @@ static void write_scene(FILE *out, const struct settings *set,
                         const struct bed *b) {
   const struct scene *s = &set->scene;
   const struct contact_law *l = &s->law;
-  const double step = fixed_step(s, b), skin = 6 / l->kappa;
+  const double step = fixed_step(s, b), skin = 4.5 * set->travel / l->kappa;
   const double g = sqrt(vec3_dot(s->gravity, s->gravity));
   fprintf(out,
           "# Scene of start.tsv by settle " DEM_VERSION " for settle-lammps, a "
@@ -128,6 +128,10 @@ void export_lammps(const char *folder, const struct settings *s,
   for (size_t i = 0; i < b->n; i++)
     if (bed_is_fixed(b, i))
       die(EXIT_USAGE, "--export-lammps: not with spheres that are fixed");
+  if (!(s->travel > 0))
+    die(EXIT_USAGE,
+        "--travel 0: --export-lammps needs a limit, which tells how "
+        "long a list of pairs holds");
   struct output_file file;
   output_folder(folder);
   output_open_in(&file, folder, "start.tsv");

@@ -16,8 +16,8 @@ if sanitized 'LAMMPS as the engine (the host is no program of the sanitizers)'; 
   check_done
   exit
 fi
-check 'make lammps' make -s B="$B" lammps "$B/tests/test_lammps" >"$T/log" 2>&1 ||
-  cat "$T/log"
+check 'make lammps' make -s B="$B" lammps "$B/tests/test_lammps" \
+  >"$T/log" 2>&1 || cat "$T/log"
 check 'no warning' test "$(grep -c warning "$T/log")" = 0
 check 'nothing of the GSL is in it' test \
   "$(nm -D "$B/settle-lammps" | grep -c ' gsl_')" = 0
@@ -25,6 +25,10 @@ check 'forces' "$B/tests/test_lammps"
 
 # ranks that wait leave the processors to others
 host() { # RANKS ARGUMENT...
+  if (($1 == 1)); then
+    timeout 300 "$B/settle-lammps" "${@:2}" 2>"$T/err"
+    return
+  fi
   timeout 300 mpirun --allow-run-as-root --oversubscribe \
     --mca mpi_yield_when_idle 1 -np "$1" "$B/settle-lammps" "${@:2}" \
     2>"$T/err"
@@ -111,5 +115,9 @@ wrong 4 'spheres were lost' "$T/lost"
   $'id\tx\ty\tz\tr\tm\tfixed' $'0\t0\t0\t1\t0.1\t1\t0' \
   $'1\t0\t0\t0\t0.1\t1\t1' '# status=ok') --export-lammps "$T/none" \
   2>"$T/err"
-check 'obstacles' test $? = 2 -a "$(grep -c 'not with spheres' "$T/err")" = 1
+obstacles=$?
+"$B/settle" --travel 0 --export-lammps "$T/none" 2>>"$T/err"
+check 'no limit of travel' test $? = 2 -a "$(grep -c 'needs a limit' \
+  "$T/err")" = 1
+check 'obstacles' test $obstacles = 2 -a "$(grep -c 'not with spheres' "$T/err")" = 1
 check_done
