@@ -7,7 +7,7 @@
 # build/data, so that a stopped make goes on where it was; charts and tables are
 # under build/figures. QUICK=1: all of it small, in directories of its own.
 # A variable is assigned once, in one file (tests/test_make.sh).
-STUDIES := paper beds precision stability bench
+STUDIES := paper beds mixtures precision stability bench
 D := $(B)/$(if $(QUICK),quick/)data
 F := $(B)/$(if $(QUICK),quick/)figures
 

@@ -16,7 +16,8 @@ declare -A makes=(
   [kappa]='kappa.md:3' [figures]=''
   [fig-gr]='gr.svg' [structure]='structure.md:2'
   [table-radius]='table-radius.md:8' [fig-walls]='walls.svg walls.md:10'
-  [fig-handover]='handover.svg' [fig-friction]='friction.svg'
+  [fig-handover]='handover.svg'
+  [fig-mixtures]='mixtures.svg mixtures.md:4'
   [precision]='precision-bounce-150-time-evaluations.svg
     precision-rolling-steps-velocity-step.svg precision-contrast.svg
     precision-work.md:60
