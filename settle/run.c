@@ -8,6 +8,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include "files/numbers.h"
+#include "geometry/periodic.h"
 #include "program/files.h"
 #include "program/litter.h"
 #include "program/integration.h"
@@ -52,6 +53,8 @@ static void write_frame(struct run *r, const double *y, double t) {
   static const struct bed_header none = {0};
   dynamics_unpack(r->motion->dynamics, y, r->bed);
   r->bed->t = t;
+  for (size_t i = 0; i < r->bed->n; i++) /* the run itself goes on outside */
+    periodic_wrap(r->set->scene.period, r->bed->x + 3 * i);
   if (r->frames)
     bed_write_gap(r->out);
   bed_write_frame(r->out, r->frames ? &none : r->header, r->bed,

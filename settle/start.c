@@ -8,6 +8,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_statistics.h>
+#include "geometry/periodic.h"
 #include "program/files.h"
 #include "model/bed_check.h"
 #include "files/formats.h"
@@ -163,9 +164,10 @@ static void check_walls(const struct scene *scene, const struct bed *b,
         scene->walls[o.wall].radius > 0 ? ", a cylinder" : "");
 }
 
-static void check_overlaps(const struct bed *b, const char *name) {
+static void check_overlaps(const struct scene *scene, const struct bed *b,
+                           const char *name) {
   struct bed_crowd c;
-  const int status = bed_find_crowd(b, &c);
+  const int status = bed_find_crowd(scene->period, b, &c);
   check_memory(status);
   if (status != GSL_SUCCESS)
     die(EXIT_INPUT, "%s: a coordinate is not finite", name);
@@ -270,6 +272,26 @@ static void check_tubes(const struct settings *s, const struct bed *b,
   }
 }
 
+/* A sphere is to meet one image of another at most, and none of its own. */
+static void check_periods(struct settings *s, const struct bed *b,
+                          const struct bed_header *h, const char *name) {
+  const double *period = s->scene.period;
+  if (!periodic_any(period))
+    return;
+  if (s->scene_file && !bed_header_get(h, "base"))
+    die(EXIT_USAGE, "--periodic: %s has no base=a,b in its header", name);
+  const double widest = gsl_stats_max(b->r, 1, b->n);
+  const double least = 2 * GSL_MAX(3 * widest, 2 * widest + s->scene.law.lmax);
+  for (int k = 0; k < 2; k++)
+    if (period[k] > 0 && period[k] < least * (1 - 1e-9))
+      die(s->scene_file ? EXIT_INPUT : EXIT_USAGE,
+          "%s: a periodic side of %g m is too short, expected at least %g m: "
+          "three diameters, and twice the reach of a contact",
+          s->scene_file ? name : "--periodic", period[k], least);
+  if (period[0] > 0 && period[1] > 0) /* as it stands in a header */
+    s->words.periodic = "x y";
+}
+
 /* The one upright tube that is all there is of side walls, or NULL. */
 static const struct wall *upright_tube(const struct scene *s) {
   const struct wall *found = NULL;
@@ -310,7 +332,9 @@ static void make_container(struct settings *s, struct option_spec *options) {
   check_memory(scene_add_box(&box, base[0], base[1]));
   for (size_t k = 0; k < box.walls_count && !own_walls; k++) {
     const struct wall *w = &box.walls[k];
-    if (!is_replaced(&s->scene, w->normal))
+    if (!is_replaced(&s->scene, w->normal) &&
+        !(w->normal[0] != 0 && s->scene.period[0] > 0) &&
+        !(w->normal[1] != 0 && s->scene.period[1] > 0))
       check_memory(scene_add_wall(&s->scene, w->point, w->normal));
   }
   scene_free(&box);
@@ -418,6 +442,7 @@ void start_make(struct settings *s, struct option_spec *options, struct bed *b,
     die(EXIT_USAGE, "--%s", wrong);
   check_turning(&s->scene, options);
   check_tubes(s, b, name);
+  check_periods(s, b, header, name);
   if (!s->scene_file) {
     make_container(s, options);
     fill(s, b);
@@ -426,7 +451,7 @@ void start_make(struct settings *s, struct option_spec *options, struct bed *b,
     add_lid(s, b);
   check_fixed(b, name);
   check_walls(&s->scene, b, name);
-  check_overlaps(b, name);
+  check_overlaps(&s->scene, b, name);
   soft_take(s, options, b, header);
   write_header(s, options, b, header);
 }

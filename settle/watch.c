@@ -310,7 +310,7 @@ int watch_frame(const struct watch *w, const struct bed *b, bool last,
   if (!last)
     return GSL_SUCCESS;
   struct bed_crowd crowd;
-  const int status = bed_find_crowd(b, &crowd);
+  const int status = bed_find_crowd(w->set->scene.period, b, &crowd);
   if (status == GSL_ENOMEM)
     return status;
   if (status != GSL_SUCCESS)

@@ -52,25 +52,26 @@ static void test_crowd(void) {
   struct bed b;
   struct bed_crowd c = {.pairs = 99};
   make(&s, &b);
-  CHECK(bed_find_crowd(&b, &c) == GSL_SUCCESS && c.pairs == 0);
+  CHECK(bed_find_crowd((double[3]){0}, &b, &c) == GSL_SUCCESS && c.pairs == 0);
   b.x[3 * 10] = b.x[3 * 11] - 0.0801; /* 0.4 of 0.2 is 0.08 */
-  CHECK(bed_find_crowd(&b, &c) == GSL_SUCCESS && c.pairs == 0);
+  CHECK(bed_find_crowd((double[3]){0}, &b, &c) == GSL_SUCCESS && c.pairs == 0);
   b.x[3 * 10] = b.x[3 * 11] - 0.0799;
-  CHECK(bed_find_crowd(&b, &c) == GSL_SUCCESS && c.pairs == 1);
+  CHECK(bed_find_crowd((double[3]){0}, &b, &c) == GSL_SUCCESS && c.pairs == 1);
   CHECK(c.i == 10 && c.j == 11);
   CHECK_REL(c.distance, 0.0799, 1e-12);
   CHECK_REL(c.expected, 0.08, 1e-12);
   /* closer, but not by the radii: 0.03 of 0.06 */
   b.r[20] = b.r[21] = 0.03;
   b.x[3 * 20] = b.x[3 * 21] - 0.03;
-  CHECK(bed_find_crowd(&b, &c) == GSL_SUCCESS && c.pairs == 1 && c.i == 10);
+  CHECK(bed_find_crowd((double[3]){0}, &b, &c) == GSL_SUCCESS && c.pairs == 1 &&
+        c.i == 10);
   b.x[3 * 20] = b.x[3 * 21] - 0.003;
-  CHECK(bed_find_crowd(&b, &c) == GSL_SUCCESS && c.pairs == 2);
+  CHECK(bed_find_crowd((double[3]){0}, &b, &c) == GSL_SUCCESS && c.pairs == 2);
   CHECK(c.i == 20 && c.j == 21);
   CHECK_REL(c.expected, 0.024, 1e-12);
   b.x[3 * 3] = GSL_NAN;
   c.pairs = 99;
-  CHECK(bed_find_crowd(&b, &c) == GSL_EINVAL && c.pairs == 99);
+  CHECK(bed_find_crowd((double[3]){0}, &b, &c) == GSL_EINVAL && c.pairs == 99);
   bed_free(&b);
   scene_free(&s);
 }

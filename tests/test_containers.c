@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Containers: obstacles against spheres of a mass that nothing moves, cylinders
-   against planes and closed forms. */
+   against planes and closed forms, periodic sides against all images, copies
+   and conservation. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_rng.h>
@@ -8,6 +9,8 @@
 #include <string.h>
 #include "check.h"
 #include "dynamics/motion.h"
+#include "geometry/periodic.h"
+#include "measure/network.h"
 #include "sample.h"
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
@@ -502,6 +505,223 @@ static void test_refused_cylinders(void) {
   scene_free(&s);
 }
 
+/* --- periodic sides --------------------------------------------------------*/
+
+/* Pairs by all images, one axis, two or three periodic. */
+static void test_periodic_pairs(gsl_rng *rng) {
+  for (int k = 0; k < 40; k++) {
+    enum { N = 50 };
+    const double reach = uniform(rng, 0, 0.1);
+    double x[3 * N], r[N], period[3];
+    struct neighbors nb = {0};
+    for (int c = 0; c < 3; c++)
+      period[c] = (k >> c & 1) || k % 8 == 0 ? uniform(rng, 0.6, 1) : 0;
+    for (size_t i = 0; i < N; i++) {
+      r[i] = uniform(rng, 0.02, 0.1);
+      for (size_t c = 0; c < 3; c++)
+        x[3 * i + c] = uniform(rng, -1.4, 1.4);
+    }
+    CHECK(periodic_find(&nb, N, x, 3, r, reach, period) == GSL_SUCCESS);
+    size_t at = 0;
+    bool same = true;
+    for (uint32_t i = 0; i < N; i++) {
+      same = same && nb.first[i] == at;
+      for (uint32_t j = i + 1; j < N; j++) {
+        double least = GSL_POSINF;
+        for (int image = 0; image < 11 * 11 * 11; image++) {
+          const int move[3] = {image % 11 - 5, image / 11 % 11 - 5,
+                               image / 121 - 5};
+          double d2 = 0;
+          for (size_t c = 0; c < 3; c++)
+            d2 += gsl_pow_2(x[3 * i + c] - x[3 * j + c] + move[c] * period[c]);
+          least = GSL_MIN(least, d2);
+        }
+        if (sqrt(least) > r[i] + r[j] + reach)
+          continue;
+        same = same && at < nb.count && nb.i[at] == i && nb.j[at] == j;
+        at++;
+      }
+    }
+    CHECK(same && at == nb.count && nb.first[N] == at);
+    neighbors_free(&nb);
+  }
+}
+
+static struct world periodic_world(gsl_rng *rng, enum scene_model model,
+                                   size_t n) {
+  struct world w = random_world(rng, model, n, 1);
+  w.scene.period[0] = 0.7;
+  w.scene.period[1] = 0.8;
+  if (scene_add_wall(&w.scene, (double[]){0, 0, 0}, (double[]){0, 0, -1}) !=
+      GSL_SUCCESS)
+    abort();
+  for (size_t i = 0; i < n; i++) {
+    w.bed.x[3 * i] *= 0.7;
+    w.bed.x[3 * i + 1] *= 0.8;
+  }
+  return w;
+}
+
+/* Forces are those of a bed with all its neighbours as copies. */
+static void test_periodic_forces(gsl_rng *rng) {
+  enum { N = 40 };
+  for (int model = SCENE_BASIC; model <= SCENE_ROTATION; model++) {
+    struct world w = periodic_world(rng, (enum scene_model)model, N);
+    struct world copies = {.scene = w.scene};
+    memset(copies.scene.period, 0, sizeof copies.scene.period);
+    if (bed_alloc(&copies.bed, 9 * N) != GSL_SUCCESS)
+      abort();
+    for (size_t i = 0; i < 9 * N; i++) {
+      const size_t of = i % N, image = (i / N + 4) % 9; /* its own first */
+      const double move[3] = {((double)(image % 3) - 1) * 0.7,
+                              ((double)(image / 3) - 1) * 0.8, 0};
+      for (size_t c = 0; c < 3; c++) {
+        copies.bed.x[3 * i + c] = w.bed.x[3 * of + c] + move[c];
+        copies.bed.v[3 * i + c] = w.bed.v[3 * of + c];
+        copies.bed.w[3 * i + c] = w.bed.w[3 * of + c];
+      }
+      copies.bed.r[i] = 0.1;
+    }
+    struct bed want = rates_of(&copies, true, 1);
+    for (int k = 0; k < 4; k++) {
+      struct bed got = rates_of(&w, k == 0, k == 2 ? 3 : 1);
+      double largest;
+      const double most = difference(&w, &got, &want, &largest);
+      CHECK(largest > 100);
+      CHECK_CLOSE(most / largest, 0, 1e-13 * 9 * N);
+      bed_free(&got);
+      for (size_t i = 0; i < N && k == 2; i++) { /* each somewhere else */
+        w.bed.x[3 * i] += 0.7 * ((double)(i % 5) - 2);
+        w.bed.x[3 * i + 1] -= 0.8 * (double)(i % 3);
+      }
+    }
+    bed_free(&want);
+    bed_free(&copies.bed);
+    world_free(&w);
+  }
+}
+
+static void test_periodic_jacobian(gsl_rng *rng) {
+  for (int k = 0; k < 6; k++) {
+    struct world w = periodic_world(rng, (enum scene_model)(k % 3), 2);
+    const double x[6] = {0.02, 0.78, 0.12, 0.65, 0.05, 0.2};
+    memcpy(w.bed.x, x, sizeof x);
+    w.scene.law.lmax = 0.15;
+    check_jacobian(&w);
+    world_free(&w);
+  }
+}
+
+/* Spheres fall onto a floor and onto each other across both sides. */
+static struct world over_sides(enum scene_model model) {
+  enum { N = 8 };
+  struct world w = world_new(model, N);
+  w.scene.period[0] = w.scene.period[1] = 0.6;
+  if (scene_add_wall(&w.scene, (double[]){0, 0, 0}, (double[]){0, 0, -1}) !=
+      GSL_SUCCESS)
+    abort();
+  for (size_t i = 0; i < N; i++) {
+    w.bed.x[3 * i] = 0.3 * (double)(i % 2) + (i < 4 ? 0.02 : 0.17);
+    w.bed.x[3 * i + 1] = 0.3 * (double)(i / 2 % 2) + (i < 4 ? 0.01 : 0.16);
+    w.bed.x[3 * i + 2] = i < 4 ? 0.12 : 0.28 + 0.01 * (double)i;
+    w.bed.v[3 * i] = i < 4 ? -1 : 1;
+  }
+  return w;
+}
+
+/* A bed that is moved by any vector along the sides is the same bed: to
+   rounding where steps are fixed, times some powers of e by the collisions;
+   else within the tolerance, since the number of stages and of spheres in a
+   level jump. */
+static void test_translation(const char *method, const char *control,
+                             double step, double most) {
+  const double move[2] = {0.37, -1.93};
+  struct bed end[2];
+  for (size_t k = 0; k < 2; k++) {
+    struct world w = over_sides(SCENE_ROTATION);
+    for (size_t i = 0; i < w.bed.n && k; i++)
+      for (size_t c = 0; c < 2; c++)
+        w.bed.x[3 * i + c] += move[c];
+    struct motion *m = start(&w, &(struct integrate_options){.method = method,
+                                                             .control = control,
+                                                             .tol = 1e-4,
+                                                             .step = step,
+                                                             .hinit = 1e-4});
+    run_to(m, 0.3);
+    if (bed_copy(&end[k], &w.bed) != GSL_SUCCESS)
+      abort();
+    dynamics_unpack(m->dynamics, integrate_state(m->integrator), &end[k]);
+    motion_free(m);
+    world_free(&w);
+  }
+  for (size_t i = 0; i < 3 * end[0].n; i++)
+    CHECK_CLOSE(end[1].x[i] - end[0].x[i], i % 3 < 2 ? move[i % 3] : 0, most);
+  bed_free(&end[0]);
+  bed_free(&end[1]);
+}
+
+/* Without walls and weight nothing takes momentum. Steps of rkc conserve it to
+   rounding, since forces of each stage balance. */
+static void test_periodic_momentum(gsl_rng *rng) {
+  enum { N = 30 };
+  struct world w = periodic_world(rng, SCENE_ROTATION, N);
+  w.scene.walls_count = 0;
+  memset(w.scene.gravity, 0, sizeof w.scene.gravity);
+  w.scene.law.f0 = 1;
+  double before[3] = {0}, after[3] = {0};
+  for (size_t i = 0; i < N; i++)
+    vec3_axpy(1, w.bed.v + 3 * i, before);
+  struct motion *m =
+      start(&w, &(struct integrate_options){.method = "rkc",
+                                            .control = "predictive",
+                                            .tol = 1e-3,
+                                            .hinit = 1e-5});
+  run_to(m, 0.2);
+  dynamics_unpack(m->dynamics, integrate_state(m->integrator), &w.bed);
+  double fastest = 0;
+  for (size_t i = 0; i < N; i++) {
+    vec3_axpy(1, w.bed.v + 3 * i, after);
+    fastest = GSL_MAX(fastest, vec3_norm(w.bed.v + 3 * i));
+  }
+  CHECK(fastest > 1); /* what overlapped has flown apart */
+  for (size_t k = 0; k < 3; k++)
+    CHECK_CLOSE(after[k], before[k], 1e-9);
+  motion_free(m);
+  world_free(&w);
+}
+
+/* A hexagonal layer on the floor, 4 by 4: each sphere has six neighbours, and
+   is at rest. */
+static void test_layer(void) {
+  enum { N = 16 };
+  const double apart = 0.2, row = apart * sqrt(0.75);
+  const double gap = log(0.58 * 10 / 9.81) / 150;
+  struct world w = world_new(SCENE_ROTATION, N);
+  w.scene.period[0] = 4 * apart;
+  w.scene.period[1] = 4 * row;
+  if (scene_add_wall(&w.scene, (double[]){0, 0, 0}, (double[]){0, 0, -1}) !=
+      GSL_SUCCESS)
+    abort();
+  for (size_t i = 0; i < N; i++) {
+    w.bed.x[3 * i] = apart * ((double)(i % 4) + 0.5 * (double)(i / 4 % 2));
+    w.bed.x[3 * i + 1] = row * (double)(i / 4);
+    w.bed.x[3 * i + 2] = 0.1 + gap;
+  }
+  struct bed rates = rates_of(&w, false, 1);
+  for (size_t i = 0; i < 3 * N; i++)
+    CHECK_CLOSE(rates.v[i], 0, 1e-11);
+  struct network net = {0};
+  size_t degree[N], spheres[N];
+  CHECK(network_find(&net, &w.scene, &w.bed, 1e-9) == GSL_SUCCESS);
+  network_mark(&net, 1e-9, 0);
+  network_degrees(&net, NULL, degree, spheres);
+  for (size_t i = 0; i < N; i++)
+    CHECK(degree[i] == 7 && spheres[i] == 6);
+  network_free(&net);
+  bed_free(&rates);
+  world_free(&w);
+}
+
 int main(void) {
   gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
   gsl_rng_set(rng, 12);
@@ -509,6 +729,7 @@ int main(void) {
   for (int model = SCENE_BASIC; model <= SCENE_ROTATION; model++) {
     test_methods(over_obstacles, (enum scene_model)model);
     test_methods(in_tubes, (enum scene_model)model);
+    test_methods(over_sides, (enum scene_model)model);
   }
   test_obstacle_energy();
   test_obstacles_alone();
@@ -519,6 +740,15 @@ int main(void) {
   test_rolling_along();
   test_rolling_round();
   test_refused_cylinders();
+  test_periodic_pairs(rng);
+  test_periodic_forces(rng);
+  test_periodic_jacobian(rng);
+  test_translation("merson", "standard", 1e-5, 1e-11);
+  test_translation("verlet", NULL, 1e-5, 1e-11);
+  test_translation("rkc", "predictive", 0, 1e-5);
+  test_translation("multirate", "local", 0, 1e-5);
+  test_periodic_momentum(rng);
+  test_layer();
   gsl_rng_free(rng);
   return check_done();
 }

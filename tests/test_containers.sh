@@ -99,4 +99,37 @@ check 'ends of a horizontal tube' cmp -s <(grep '^# wall' "$T/flat.bed") - << 'E
 # wall=1 0 0 1 0 0
 END
 
+# --- periodic sides ----------------------------------------------------------
+refused 2 'too short, expected at least 0.6 m' "$B/settle" --periodic x --base 0.5,1
+refused 2 'one of x y xy' "$B/settle" --periodic z
+"$B/settle" --quiet --periodic xy --base 0.8,0.7 --count 60 --time 3 \
+  > "$T/periodic.bed"
+check 'periodic sides in the header' cmp -s \
+  <(grep -E '^# (periodic|base|wall)=' "$T/periodic.bed") - << 'END'
+# base=0.8,0.7
+# periodic=x y
+# wall=0 0 0 0 0 -1
+END
+within 'places are in the cell' "$(awk '/^[0-9]/ && ($2 < 0 || $2 >= 0.8 ||
+  $3 < 0 || $3 >= 0.7) { n++ } END { print n + 0 }' "$T/periodic.bed")" 0 0
+"$B/analyze" contacts "$T/periodic.bed" > "$T/tsv"
+within 'the floor carries all of it' "$(row floor "$T/tsv")" 0.98 1.02
+"$B/settle" --quiet --scene "$T/periodic.bed" --time 3.2 > "$T/on.bed"
+check 'going on keeps periodic sides' cmp -s <(grep '^# [pbw].*=' "$T/on.bed") \
+  <(grep '^# [pbw].*=' "$T/periodic.bed")
+"$B/settle" --quiet --periodic x --base 0.8,0.7 --count 20 --time 0.1 > "$T/x.bed"
+check 'one side: walls across the other' [ "$(grep -c '^# wall' "$T/x.bed")" = 3 ]
+sed 's/^# base=0.8,0.7/# base=0.4,0.7/' "$T/periodic.bed" > "$T/bad.bed"
+refused 3 'a periodic side of 0.4 m is too short' "$B/settle" --scene "$T/bad.bed"
+grep -v '^# base' "$T/periodic.bed" > "$T/bad.bed"
+refused 3 'periodic' "$B/analyze" contacts "$T/bad.bed"
+# a checkpoint goes on to the last bit
+for walls in '--periodic xy' "--cylinder $tube"; do
+  "$B/settle" --quiet $walls --count 20 --time 0.3 --output "$T/whole.bed"
+  "$B/settle" --quiet $walls --count 20 --time 0.3 --output "$T/two.bed" \
+    --checkpoint "$T/state" --every 0
+  cp "$T/two.bed" "$T/first.bed"
+  check "$walls: with checkpoints" cmp -s "$T/whole.bed" "$T/two.bed"
+done
+
 check_done

@@ -267,7 +267,7 @@ static int make_run_watch(const struct sample *s) {
 
 static int make_crowd(const struct sample *s) {
   struct bed_crowd c;
-  return bed_find_crowd(&s->bed, &c);
+  return bed_find_crowd(s->scene.period, &s->bed, &c);
 }
 
 /* --- what is measured ------------------------------------------------------*/

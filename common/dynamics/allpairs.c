@@ -57,6 +57,7 @@ bool allpairs_rates(const struct contact_list *list, const double *y,
       const double rj = list->radius[j];
       double u[3], w[3];
       vec3_sub(p, q, u);
+      periodic_nearest(list->period, u);
       const double d = vec3_norm(u);
       if (d - ri - rj > list->law.lmax)
         continue;

@@ -169,6 +169,9 @@ int contact_list_alloc(struct contact_list **out, const struct scene *s,
   }
   for (size_t k = 0; k < s->walls_count; k++)
     l->walls[k] = s->walls[k];
+  for (int k = 0; k < 3; k++)
+    l->period[k] = s->period[k];
+  l->periodic = periodic_any(s->period);
   l->cylinders = s->walls_count && s->walls[s->walls_count - 1].radius > 0;
   bool uniform = true;
   double smallest = GSL_POSINF;
@@ -369,8 +372,8 @@ static size_t largest_span(const struct neighbors *near) {
 static int find_contacts(struct contact_list *l, const double *y,
                          size_t stride) {
   l->partners_known = false;
-  const int status = neighbors_find(&l->near, l->rows, y, stride, l->radius,
-                                    l->law.lmax + l->skin);
+  const int status = periodic_find(&l->near, l->rows, y, stride, l->radius,
+                                   l->law.lmax + l->skin, l->period);
   if (status != GSL_SUCCESS)
     return status == GSL_EINVAL ? GSL_EBADFUNC : status;
   drop_fixed(l);

@@ -11,7 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include "dynamics/row.h"
-#include "geometry/neighbors.h"
+#include "geometry/periodic.h"
 #include "model/bed.h"
 #include "model/scene.h"
 #include "platform/store.h"
@@ -46,7 +46,9 @@ struct contact_list {
   double gravity[3];
   size_t walls_count;
   struct wall *walls;
-  bool cylinders; /* not all of them are planes */
+  bool cylinders;   /* not all of them are planes */
+  double period[3]; /* geometry/periodic.h */
+  bool periodic;    /* some axis is */
 
   /* Rows that have rates, doubles in each; after them a part of a bed has
      ghosts: rows that are partners only. */

@@ -27,6 +27,8 @@ int contact_subset_alloc(struct contact_list **out,
   memcpy(l->gravity, whole->gravity, sizeof l->gravity);
   l->walls_count = whole->walls_count;
   l->cylinders = whole->cylinders;
+  l->periodic = whole->periodic;
+  memcpy(l->period, whole->period, sizeof l->period);
   l->threads = 1;
   l->most_threads = whole->most_threads;
   l->age = SIZE_MAX;
@@ -87,11 +89,13 @@ static bool reserve_contacts(struct contact_list *l, size_t pairs,
 
 /* Whether rows p and q come nearer than most, where they approach for the time
    of a reach: the squared distance falls by 2 h u.v at least, to first order;
-   the second is positive. */
+   the second is positive. period: NULL where no axis is periodic. */
 static inline bool rows_within(const double *p, const double *q, double most,
-                               double twice) {
+                               double twice, const double *period) {
   double u[3], v[3];
   vec3_sub(p + ROW_X, q + ROW_X, u);
+  if (period)
+    periodic_nearest(period, u);
   vec3_sub(p + ROW_V, q + ROW_V, v);
   const double nearest = vec3_dot(u, u) + twice * GSL_MIN(vec3_dot(u, v), 0);
   return nearest <= most * most && most > 0;
@@ -105,7 +109,8 @@ static double twice_of(const struct contact_reach *reach) {
 bool contact_subset_within(const struct contact_list *l, size_t i, size_t j,
                            const struct contact_reach *reach) {
   return rows_within(reach->y + i * l->stride, reach->y + j * l->stride,
-                     l->radius[i] + l->radius[j] + reach->gap, twice_of(reach));
+                     l->radius[i] + l->radius[j] + reach->gap, twice_of(reach),
+                     l->periodic ? l->period : NULL);
 }
 
 static bool wall_within(const struct contact_list *l, size_t contact,
@@ -237,6 +242,7 @@ int contact_subset_split(struct contact_list *near, struct contact_list *far,
                          const struct contact_reach *reach) {
   struct contact_list *to[2] = {far, near};
   const double twice = twice_of(reach);
+  const double *period = from->periodic ? from->period : NULL;
   size_t pairs[2] = {0, 0}, walls[2] = {0, 0};
   if (copy_rows(near, from) != GSL_SUCCESS ||
       copy_rows(far, from) != GSL_SUCCESS)
@@ -251,7 +257,7 @@ int contact_subset_split(struct contact_list *near, struct contact_list *far,
     for (size_t q = from->near.first[i]; q < from->near.first[i + 1]; q++) {
       const uint32_t j = from->near.j[q];
       const int k = rows_within(p, reach->y + j * from->stride,
-                                most + from->radius[j], twice);
+                                most + from->radius[j], twice, period);
       /* no branch: which it is cannot be told ahead */
       near->near.i[pairs[1]] = far->near.i[pairs[0]] = (uint32_t)i;
       near->near.j[pairs[1]] = far->near.j[pairs[0]] = j;

@@ -270,6 +270,7 @@ void jacobian_dense(const struct contact_list *list, const double *y,
     struct turning turning = {0};
     double u[3], w[3];
     vec3_sub(p, q, u);
+    periodic_nearest(list->period, u);
     vec3_sub(p + ROW_V, q + ROW_V, w);
     const double distance = vec3_norm(u);
     if (list->has.rotation)

@@ -152,6 +152,15 @@ INLINE void load_pairs(const struct contact_list *list, const double *y,
     load_pair(list, y, i[c], j[c], c, b, has);
 }
 
+/* Separation vectors between nearest images. */
+static void take_nearest(const double period[3], size_t count,
+                         struct block *b) {
+  double *u[3] = {b->nx, b->ny, b->nz};
+  for (int k = 0; k < 3; k++)
+    for (size_t c = 0; c < count && period[k] > 0; c++)
+      u[k][c] -= period[k] * __builtin_rint(u[k][c] / period[k]);
+}
+
 /* Distances and normals of pairs, in place of separation vectors. */
 INLINE void normalise(const struct contact_list *list, size_t count,
                       struct block *b, const struct contact_features has) {
@@ -204,8 +213,8 @@ INLINE void load_wall(const struct contact_list *list, const double *y,
   }
 }
 
-/* The same four at a time, for equal spheres that spin; rows, points and normals
-   are turned into columns. */
+/* The same four at a time, for equal spheres that spin; rows, points and
+   normals are turned into columns. */
 INLINE void load_four_walls(const struct contact_list *list, const double *y,
                             size_t k, size_t c, struct block *b) {
   const double r = list->radius[0];
@@ -487,6 +496,8 @@ INLINE void add_pairs(const struct contact_list *list, const double *y,
   for (size_t from = 0; from < count; from += BLOCK) {
     const size_t some = count - from < BLOCK ? count - from : BLOCK;
     load_pairs(list, y, i + from, j + from, some, &b, has);
+    if (list->periodic)
+      take_nearest(list->period, some, &b);
     const size_t padded = pad(&b, some, has);
     normalise(list, padded, &b, has);
     evaluate(&list->law, padded, &b, has);
@@ -530,9 +541,9 @@ INLINE vec4 finish_row(const double *state, double *rate, const double *sum,
   return v + a + b + 0 * vec4_load(state + ROW_W - 1);
 }
 
-INLINE double finish_plain(const double *state, double *rate,
-                           const double *sum, const double gravity[3],
-                           double push, const double *more) {
+INLINE double finish_plain(const double *state, double *rate, const double *sum,
+                           const double gravity[3], double push,
+                           const double *more) {
   double checksum = 0;
   for (int c = 0; c < 3; c++) {
     rate[c] = state[ROW_V + c];

@@ -35,6 +35,7 @@ void survey_take(const struct contact_list *list, const double y[],
     const size_t i = list->near.i[p], j = list->near.j[p];
     double u[3];
     vec3_sub(y + i * stride, y + j * stride, u);
+    periodic_nearest(list->period, u);
     const double ri = list->radius[i], rj = list->radius[j];
     const double squared = vec3_dot(u, u), reach = ri + rj + list->law.lmax;
     if (squared <= (1 + 1e-9) * reach * reach) /* two fifths are further */

@@ -8,7 +8,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include "geometry/box.h"
-#include "geometry/neighbors.h"
+#include "geometry/periodic.h"
 
 void network_free(struct network *w) {
   free(w->at);
@@ -33,6 +33,7 @@ static void set_pair(struct network_contact *c, const struct scene *s,
   double u[3], spin[3] = {0};
   *c = (struct network_contact){.i = i, .j = j, .counts = true};
   vec3_sub(b->x + 3 * i, b->x + 3 * j, c->n);
+  periodic_nearest(s->period, c->n);
   const double d = vec3_norm(c->n);
   for (int k = 0; k < 3; k++)
     c->n[k] /= d;
@@ -80,7 +81,8 @@ int network_find(struct network *w, const struct scene *s, const struct bed *b,
                  double reach) {
   struct neighbors near = {0};
   network_free(w);
-  const int status = neighbors_find(&near, b->n, b->x, 3, b->r, reach);
+  const int status =
+      periodic_find(&near, b->n, b->x, 3, b->r, reach, s->period);
   if (status != GSL_SUCCESS) {
     neighbors_free(&near);
     return status;

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdbool.h>
 #include <gsl/gsl_errno.h>
-#include "geometry/neighbors.h"
+#include "geometry/periodic.h"
 #include "geometry/vec3.h"
 
 struct bed_outsiders bed_find_outsiders(const struct scene *s,
@@ -30,10 +30,11 @@ struct bed_outsiders bed_find_outsiders(const struct scene *s,
   return o;
 }
 
-int bed_find_crowd(const struct bed *b, struct bed_crowd *c) {
+int bed_find_crowd(const double period[3], const struct bed *b,
+                   struct bed_crowd *c) {
   struct neighbors near = {0};
   struct bed_crowd found = {0};
-  const int status = neighbors_find(&near, b->n, b->x, 3, b->r, 0);
+  const int status = periodic_find(&near, b->n, b->x, 3, b->r, 0, period);
   if (status != GSL_SUCCESS) {
     neighbors_free(&near);
     return status;
@@ -45,6 +46,7 @@ int bed_find_crowd(const struct bed *b, struct bed_crowd *c) {
       continue;
     double u[3];
     vec3_sub(b->x + 3 * i, b->x + 3 * j, u);
+    periodic_nearest(period, u);
     const double d = vec3_norm(u), touch = b->r[i] + b->r[j];
     if (!(d < bed_closest * touch))
       continue;

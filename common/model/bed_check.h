@@ -32,7 +32,9 @@ struct bed_crowd {
   double distance, expected; /* of their centres, at least (m) */
 };
 
-/* GSL_SUCCESS, GSL_EINVAL where a coordinate is not finite, GSL_ENOMEM. */
-int bed_find_crowd(const struct bed *b, struct bed_crowd *c);
+/* Across periodic axes too (geometry/periodic.h). GSL_SUCCESS, GSL_EINVAL where
+ * a coordinate is not finite, GSL_ENOMEM. */
+int bed_find_crowd(const double period[3], const struct bed *b,
+                   struct bed_crowd *c);
 
 #endif

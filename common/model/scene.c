@@ -160,6 +160,7 @@ static void store_walls(struct scene *scene, struct store *s) {
     }
     store_doubles(s, scene->walls[k].point, 3);
     store_doubles(s, scene->walls[k].normal, 3); /* not normalised again */
+    store_double(s, &scene->walls[k].radius);
   }
 }
 
@@ -167,7 +168,7 @@ void scene_store(struct scene *scene, struct store *s) {
   struct stored {
     enum scene_model model;
     struct contact_law law;
-    double gravity[3];
+    double gravity[3], period[3];
     size_t walls_count;
     void *walls;
   };
@@ -182,5 +183,6 @@ void scene_store(struct scene *scene, struct store *s) {
     scene->model = (enum scene_model)model;
   store_plain(s, &scene->law, sizeof scene->law);
   store_doubles(s, scene->gravity, 3);
+  store_doubles(s, scene->period, 3);
   store_walls(scene, s);
 }

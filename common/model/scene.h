@@ -43,6 +43,7 @@ struct scene {
   enum scene_model model;
   struct contact_law law;
   double gravity[3]; /* m/s^2 */
+  double period[3];  /* along each axis (m); 0: not periodic */
   size_t walls_count;
   struct wall *walls; /* planes first, then cylinders */
 };

@@ -26,6 +26,12 @@ int scene_cylinder_option(const struct option_list *v, void *scene) {
   return scene_add_cylinder(scene, v->at, v->at + 3, v->at[6]);
 }
 
+const char *const scene_periodic[] = {"x", "y", "xy", "x y", NULL};
+
+void scene_no_periodic(char *text, size_t size) {
+  snprintf(text, size, "none");
+}
+
 const char *scene_finish(struct scene *s, const struct scene_words *w) {
   const struct option_list *g = &w->gravity;
   if (scene_model_named(w->model, &s->model) != GSL_SUCCESS)
@@ -38,6 +44,12 @@ const char *scene_finish(struct scene *s, const struct scene_words *w) {
     s->gravity[k] = g->count == 3 ? g->at[k] : 0;
   if (g->count == 1)
     s->gravity[2] = -g->at[0];
+  for (int k = 0; k < 2; k++) {
+    const bool wanted = w->periodic && strchr(w->periodic, "xy"[k]);
+    if (wanted && !(w->base.count == 2 && w->base.at[k] > 0))
+      return "periodic: expected sides by base=a,b above 0";
+    s->period[k] = wanted ? w->base.at[k] : 0;
+  }
   return scene_check(s);
 }
 
@@ -80,7 +92,15 @@ const char *scene_from_header(struct scene *s, const struct bed_header *h,
                               const struct bed *b) {
   *s = scene_default();
   struct scene_words words = scene_words_default();
-  struct option_spec options[] = {SCENE_OPTIONS(*s, words), {0}};
+  struct option_spec options[] = {SCENE_OPTIONS(*s, words),
+                                  {.name = "base",
+                                   .type = OPTION_LIST,
+                                   .value = &words.base,
+                                   .least = 2,
+                                   .most = 2,
+                                   .parameter = true},
+                                  {0}};
+  words.base.count = 0; /* none is known but for a header's */
   if (h && b && b->n)
     header_similarity(h, options, &words, bed_mean(b, b->r), bed_mean(b, b->m));
   const char *wrong = h ? header_options(h, options, NULL) : NULL;

@@ -14,6 +14,7 @@ struct scene_words {
   const char *model;          /* name of one of scene_models */
   const char *lever;          /* of one of scene_levers, NULL: the first */
   struct option_list gravity; /* one number, downwards, or three */
+  const char *periodic;       /* axes, of scene_periodic; NULL: none */
   struct option_list base;    /* sides of the box, two */
 };
 
@@ -28,6 +29,10 @@ void scene_lever_unset(char *text, size_t size);
 
 /* For option cylinder: appends {px, py, pz, ax, ay, az, R}. */
 int scene_cylinder_option(const struct option_list *v, void *scene);
+
+/* For option periodic: its choices, and what --help says of its default. */
+extern const char *const scene_periodic[];
+void scene_no_periodic(char *text, size_t size);
 
 /* Puts the words into the scene and checks it. NULL, or what is wrong, a
    static string. */

@@ -78,6 +78,10 @@
   {.name = "lever", .type = OPTION_TEXT, .value = &(w).lever,                  \
    OPTION_TABLE(scene_levers), .help = "lever arms of friction",               \
    .parameter = true, .optional = true, .unset = scene_lever_unset},           \
+  {.name = "periodic", .type = OPTION_TEXT, .value = &(w).periodic,            \
+   .choices = scene_periodic, .unset = scene_no_periodic,                      \
+   .help = "sides of the base that are periodic instead of walls",             \
+   .parameter = true, .optional = true},                                       \
   SIMILAR("vmin", &(s).law.vmin, DBL_MIN, "m/s",                               \
           "slip speed of full friction", 1, -1, 0),                            \
   SIMILAR("lmax", &(s).law.lmax, DBL_MIN, "m",                                 \
