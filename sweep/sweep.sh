@@ -357,7 +357,13 @@ stored() { # DIR N: its line into $line, if the run was this one
   local key
   { read -r key && read -r line; } 2>/dev/null <"$1/$2.row" || return 1
   [[ $key == "$version ${commands[$2]}" ]] || return 1
-  [[ -z $keep || -e $keep/$(printf '%06d' "$2").tsv ]] || [[ $line != *$'\t'0$'\t'* ]]
+}
+stays() { # N: whether $line needs no other try
+  local status
+  IFS=$'\t' read -r _ status _ <<<"$line"
+  # what something else than the run ended is tried again
+  ((status != 1 && status <= 128)) || return
+  [[ -z $keep || $status != 0 || -e $keep/$(printf '%06d' "$1").tsv ]]
 }
 run_task() { # DIR: the share of a job of Slurm's array: each T-th that is open
   local n command line k=0 version
@@ -558,10 +564,10 @@ sweep_all() {
   [[ ! -t 2 || -n $quiet ]] || shows=1
   printf '%s\n' "$header"$'\tmessage' || written
   for ((n = 1; n <= runs; n++)); do
-    # runs that something else ended are tried again
-    if stored "$work" $n && [[ $line != *[0-9]$'\t'@(1|12[89]|1[3-9][0-9])$'\t'* ]]; then
+    if stored "$work" $n && stays $n; then
       take "$line"
     else
+      rm -f "$work/$n.row"
       todo+=("${commands[$n]}")
       open+=("$n"$'\t'"${commands[$n]}")
       numbers+=("$n")
@@ -590,7 +596,6 @@ sweep_all() {
 }
 
 # --- the command line -----------------------------------------------------------
-shopt -s extglob
 file=- measures=() settle='' jobs=1 keep='' work='' parallel='' sshlogins=()
 slurm='' sbatch='' dry=0 groups='' quiet='' run='' task='' operands=0
 summarizes=''

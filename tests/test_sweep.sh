@@ -132,10 +132,10 @@ killed() { # SIGNAL: in the middle; the results that are there are whole rows
   rows=$(find forty.sweep -name '*.row' | wc -l)
   check "SIG$1 in the middle, $rows rows" test "$rows" -ge 5 -a "$rows" -lt 40
   # what is there is taken as it is
-  sed -i '2s/\t0\./\t9./' forty.sweep/1.row
+  sed -i '2s/\t0\.4\t/\t1\t/' forty.sweep/1.row
   sweeps 0 "resumed after SIG$1" --settle "$tiny" --jobs 2 forty.tsv
   check "SIG$1: the first row was not run again" test \
-    "$(sed -n 2p out | cut -f 3-4)" != "$(sed -n 2p forty | cut -f 3-4)"
+    "$(sed -n 2p out | cut -f 2-3)" = $'0\t1'
   check "SIG$1: the other rows are the same" cmp -s <(tail -n +3 out) \
     <(tail -n +3 forty)
   check "SIG$1: nothing is left" test ! -e forty.sweep
@@ -143,6 +143,13 @@ killed() { # SIGNAL: in the middle; the results that are there are whole rows
 killed TERM
 check 'SIGTERM: exit status 5' test $status = 5
 killed KILL
+# what something else ended is run again, what failed by itself is not
+sweeps 4 'rows of failures' --settle "$tiny" --work f fail.tsv
+sed -i '2s/\t2\t/\t1\t/' f/1.row
+sed -i '2s/settle:/once:/' f/2.row
+sweeps 4 'once more' --settle "$tiny" --work f fail.tsv
+check 'status 1 was run again' test "$(cell 1 status out)" = 2
+check 'status 5 was not' grep -q '^2.*once: ' out
 # other options, and other rows, are other runs
 sweeps 0 'a place of its own' --settle "$tiny" --work w runs.tsv
 check 'it stays' test -s w/3.row
