@@ -103,15 +103,15 @@ int main(int argc, char **argv) {
       POSITIVE("radius", &s.fill.radius, "m",
                "radius of the spheres, which defaults follow"),
       POSITIVE("mass", &s.fill.mass, "kg",
-               "of one sphere, which defaults follow"),
+               "of one sphere, or of that with the mean radius, which defaults "
+               "follow"),
       {.name = "density", .type = OPTION_DOUBLE, .value = &s.density,
        .most = OPTION_MANY, .unit = "kg/m^3; 0: --mass",
        .help = "of the spheres, instead of --mass"},
       {.name = "sizes", .type = OPTION_TEXT, .value = &s.sizes,
        .unit = "uniform:R1,R2, normal:MEAN,SD, lognormal:MEDIAN,SIGMA, "
-               "mix:R1*SHARE,R2*SHARE,... or sieve:FILE; radii in m",
-       .help = "distribution of radii; --mass is then of a sphere of the mean "
-               "radius",
+               "mix:R1*SHARE,R2*SHARE,... or sieve:FILE",
+       .help = "radii (m) by a distribution",
        .parameter = true, .optional = true},
       {.name = "shares", .type = OPTION_TEXT, .value = &s.shares,
        .choices = size_shares, .unset = shares_unset,
