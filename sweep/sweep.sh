@@ -20,7 +20,7 @@ run; an empty cell or - leaves the option to settle. The results have
 those columns, the exit status, what analyze measures, and a message.
 A sweep that was killed goes on where it was by the same command.'
 example="sweep --measure fraction --jobs 8 runs.tsv > results.tsv"
-# name, what stands for the value, its kind, help, default
+# name, what stands for the value, its kind, help, default; a line for each
 options="measure|VERB|text|what analyze is to do, with its options; repeatable: several columns|fraction
 settle|OPTIONS|text|for each run, which a cell of the table overrides|
 jobs|N|number|runs at a time, 0: one for each core|1
@@ -51,7 +51,7 @@ clear_line() {
   shown=
 }
 
-# --- help, man page, completion -------------------------------------------------
+# --- help, man page, completion -----------------------------------------------
 version() {
   settle --version | sed 's/.* //'
 }
@@ -81,7 +81,8 @@ print_man() {
       "${value:+ $value}" "$(sed "s/-/\\\\-/g; s/'/\\\\(aq/g" <<<"$help")" \
       "${default:+ Default: $default.}"
   done <<<"$options"
-  printf '.TP\n\\fB\\-h\\fR, \\fB\\-\\-help\\fR\nThe options and their defaults.\n'
+  printf '.TP\n\\fB\\-h\\fR, \\fB\\-\\-help\\fR\n'
+  printf 'The options and their defaults.\n'
   printf '.TP\n\\fB\\-\\-version\\fR\nName and version.\n.SH EXIT STATUS\n'
   printf '.TP\n%s\n%s\n' 0 'done' 1 'input, output or memory failed' \
     2 'a mistake in the use' 3 'bad input' 4 'some runs failed' 5 interrupted
@@ -96,7 +97,7 @@ print_complete() {
   done <<<"$options"
 }
 
-# --- one run --------------------------------------------------------------------
+# --- one run ------------------------------------------------------------------
 # Measures a bed: names and values, or status and message of what went wrong.
 measure() { # BED DIRECTORY
   local words k row
@@ -152,7 +153,8 @@ run_one() { # ARGUMENT...: of settle
   settle --quiet --threads 1 "$@" >"$bed" 2>"$T/err" </dev/null
   status=$?
   last_message settle "$T/err"
-  if ((status == 0)) || { [[ ${measures[*]} == *--allow-partial* && -s $bed ]]; }; then
+  if ((status == 0)) ||
+    [[ ${measures[*]} == *--allow-partial* && -s $bed ]]; then
     local settled=$status said=$message
     if measure "$bed" "$T"; then
       status=$settled message=$said
@@ -167,7 +169,7 @@ run_one() { # ARGUMENT...: of settle
   printf '%s\n' "$run"$'\t'"$status"$'\t'"$message"$'\t'"$values"
 }
 
-# --- the table of runs ----------------------------------------------------------
+# --- the table of runs --------------------------------------------------------
 # Prints a line of columns, then for each run: its cells, \001, its arguments.
 # What is wrong goes to standard error, and the status is 3 then.
 read_table() { # FILE NAME
@@ -184,7 +186,8 @@ read_table() { # FILE NAME
         return text
       }
       if (length(text) < 2 || text !~ /"$/)
-        wrong("the quote of " text " does not end: a cell holds no tab and no line")
+        wrong("the quote of " text \
+          " does not end: a cell holds no tab and no line")
       text = substr(text, 2, length(text) - 2)
       gsub(/""/, "\002", text)
       if (text ~ /"/) wrong("a quote within \"" text "\"")
@@ -223,7 +226,8 @@ read_table() { # FILE NAME
     }
     BEGIN {
       FS = "\t"
-      n = split("threads quiet stats log output checkpoint every resume", own, " ")
+      n = split("threads quiet stats log output checkpoint every resume " \
+        "export-lammps", own, " ")
       for (i = 1; i <= n; i++) ours[own[i]] = 1
     }
     # options of settle first: name, kind, choices
@@ -274,12 +278,13 @@ read_table() { # FILE NAME
       if (bad) exit 3
       line = FNR
       if (!columns)
-        wrong("the table is empty: expected names of options of settle, and runs")
+        wrong("the table is empty: expected names of options of settle, " \
+          "and runs")
       if (!runs) wrong("no run: expected lines below the names")
     }' - "$1"
 }
 
-# --- means over groups ----------------------------------------------------------
+# --- means over groups --------------------------------------------------------
 summarize() { # COLUMNS FILE NAME
   awk -F '\t' -v wanted="$1" -v name="$3" '
     function wrong(text) {
@@ -346,7 +351,7 @@ summarize() { # COLUMNS FILE NAME
     }' "$2"
 }
 
-# --- stored results -------------------------------------------------------------
+# --- stored results -----------------------------------------------------------
 # DIR/N.row: version and command, then the line of the run.
 store() { # DIR N LINE
   local file=$1/$2.row
@@ -378,7 +383,7 @@ run_task() { # DIR: the share of a job of Slurm's array: each T-th that is open
   done <"$1/open"
 }
 
-# --- all runs -------------------------------------------------------------------
+# --- all runs -----------------------------------------------------------------
 take() { # LINE: of a run that is done
   local n=${1%%$'\t'*} status
   IFS=$'\t' read -r _ status _ <<<"$1"
@@ -396,8 +401,8 @@ print_rows() { # those whose turn it is
     IFS=$'\t' read -r n status message values <<<"${line_of[next]}"
     line_of[next]=printed
     clear_line
-    printf '%s\n' "${cells[next]}"$'\t'"$status"$'\t'"${values:-$blank}"$'\t'"$message" ||
-      written
+    printf '%s\t%s\t%s\t%s\n' "${cells[next]}" "$status" \
+      "${values:-$blank}" "$message" || written
     next=$((next + 1))
   done
 }
@@ -414,7 +419,7 @@ progress() {
 interrupted() {
   trap '' INT TERM HUP
   stop
-  die 5 "interrupted after $finished of $runs runs${kept:+; the same command goes on}"
+  die 5 "interrupted after $finished of $runs runs$goes_on"
 }
 stop() { # what runs
   if [[ -n ${job-} ]]; then scancel "$job" 2>/dev/null; fi
@@ -466,7 +471,8 @@ slurm_runs() { # submits, and waits for files
     --array="0-$((tasks - 1))${jobs:+%$jobs}" --output="$work/task-%a.log" \
     "${words[@]}" --wrap "$(printf '%q ' "$self" --task "$work")"
   exec 3<"$results"
-  IFS=';' read -r job _ <&3 || { wait "$group"; die 1 'sbatch: no job was made'; }
+  IFS=';' read -r job _ <&3 ||
+    { wait "$group"; die 1 'sbatch: no job was made'; }
   local running=1
   while ((running)); do
     kill -0 "$group" 2>/dev/null || running=0
@@ -491,11 +497,13 @@ sweep_all() {
   trap 'rm -rf "$T"' EXIT
   version=$(version)
   if [[ $file == - ]]; then
-    [[ ! -t 0 ]] || usage_error 'expected a table of runs on standard input or a file'
+    [[ ! -t 0 ]] ||
+      usage_error 'expected a table of runs on standard input or a file'
     table=$T/table
     cat >"$table" || exit 1
   fi
-  [[ -r $table && ! -d $table ]] || die 1 "$file: no such table, or it cannot be read"
+  [[ -r $table && ! -d $table ]] ||
+    die 1 "$file: no such table, or it cannot be read"
   read_table "$table" "$name" >"$T/runs" || exit 3
 
   local verb verbs
@@ -551,6 +559,7 @@ sweep_all() {
     kept=${file##*/}
     kept=${kept%.tsv}.sweep
   fi
+  local goes_on=${kept:+; the same command goes on}
   named=$work
   work=${kept:-$T/work}
   mkdir -p "$work" ${keep:+"$keep"} || die 1 "$work: it could not be made"
@@ -588,14 +597,14 @@ sweep_all() {
   fi
   clear_line
   if ((finished < runs)); then
-    die 1 "$((runs - finished)) of $runs runs ended without a result${kept:+; the same command goes on}"
+    die 1 "$((runs - finished)) of $runs runs ended without a result$goes_on"
   fi
   [[ -n $named ]] || ((again)) || rm -rf "$work"
   ((failed == 0)) ||
-    die 4 "$failed of $runs runs failed; their rows have the status and a message"
+    die 4 "$failed of $runs runs failed; their rows have status and message"
 }
 
-# --- the command line -----------------------------------------------------------
+# --- the command line ---------------------------------------------------------
 file=- measures=() settle='' jobs=1 keep='' work='' parallel='' sshlogins=()
 slurm='' sbatch='' dry=0 groups='' quiet='' run='' task='' operands=0
 summarizes=''
@@ -671,7 +680,8 @@ elif [[ -n $summarizes ]]; then
 else
   [[ -z $slurm || -z $parallel ]] ||
     usage_error '--slurm: expected without --parallel and --sshlogin'
-  [[ -z $sbatch || -n $slurm ]] || usage_error '--sbatch: expected --slurm as well'
+  [[ -z $sbatch || -n $slurm ]] ||
+    usage_error '--sbatch: expected --slurm as well'
   [[ -z $parallel ]] || command -v parallel >/dev/null ||
     die 1 'parallel: GNU parallel is not installed'
   [[ -z $slurm ]] || command -v sbatch >/dev/null ||

@@ -11,7 +11,7 @@ if ! command -v mpirun >/dev/null ||
   check_done
   exit
 fi
-if sanitized 'LAMMPS as the engine (the host is no program of the sanitizers)'; then
+if sanitized 'LAMMPS as the engine (which is not of the sanitizers)'; then
   pass
   check_done
   exit
@@ -119,5 +119,6 @@ obstacles=$?
 "$B/settle" --travel 0 --export-lammps "$T/none" 2>>"$T/err"
 check 'no limit of travel' test $? = 2 -a "$(grep -c 'needs a limit' \
   "$T/err")" = 1
-check 'obstacles' test $obstacles = 2 -a "$(grep -c 'not with spheres' "$T/err")" = 1
+check 'obstacles' test $obstacles = 2 -a "$(grep -c 'not with spheres' \
+  "$T/err")" = 1
 check_done

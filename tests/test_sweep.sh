@@ -36,8 +36,8 @@ by_hand() { # ROW OPTION...
 by_hand 1 --seed 1 --friction 0.2
 by_hand 2 --seed 2 --friction 0
 by_hand 3 --seed 3
-check 'cells are passed on' test "$(cut -f 1,2 three | tail -n 3 | tr '\n\t' '; ')" \
-  = '1 0.2;2 0;3 -;'
+check 'cells are passed on' test \
+  "$(cut -f 1,2 three | tail -n 3 | tr '\n\t' '; ')" = '1 0.2;2 0;3 -;'
 check 'nothing is left' test "$(echo *.sweep)" = '*.sweep'
 timeout 60 "$sweep" --settle "$tiny" <runs.tsv >out 2>err
 check 'from standard input' cmp -s out three
@@ -45,7 +45,8 @@ check 'from standard input' cmp -s out three
 printf 'seed\tcount\ttime\n1\t60\t1\n2\t2\t0.1\n3\t2\t0.1\n' >order.tsv
 sweeps 0 order --settle '--base 0.5,0.5' --jobs 3 order.tsv
 check 'order of the table' test "$(cut -f 1 out | tr '\n' ' ')" = 'seed 1 2 3 '
-printf 'model\tuntil-rest\tbase\tgravity\nbasic\tno\t"0.5,0.5"\t9.81\r\n' >kinds.tsv
+printf 'model\tuntil-rest\tbase\tgravity\nbasic\tno\t"0.5,0.5"\t9.81\r\n' \
+  >kinds.tsv
 sweeps 0 'a choice, a flag, a list, quotes, CRLF' \
   --settle '--count 2 --time 0.1' kinds.tsv
 sweeps 0 'several measures' --settle "$tiny" --measure fraction \
@@ -65,7 +66,8 @@ check 'a usage error is a row' test "$(cell 1 status out) $(cell 1 union out)" \
 check 'with its message' test "$(cell 1 message out | grep -c \
   'settle: --friction -1: expected')" = 1
 check 'a bed not at rest is a row' test "$(cell 2 status out)" = 5
-check 'and the rest goes on' test "$(cell 3 union out)" = "$(cell 3 union three)"
+check 'and the rest goes on' test "$(cell 3 union out)" = \
+  "$(cell 3 union three)"
 check 'one line says so' test "$(wc -l <err)" = 1
 sweeps 4 'failed beds are measured on request' --settle "$tiny" \
   --measure 'fraction --allow-partial' fail.tsv
@@ -86,7 +88,8 @@ wrong 3 'wrong.tsv:1:.*expected tabs' 'seed,friction\n1,2\n'
 wrong 3 'wrong.tsv:3: 1 cells, expected 2' 'seed\tcount\n1\t2\n1\n'
 wrong 3 'wrong.tsv:3: column seed: "x": expected a number' 'seed\n1\nx\n'
 wrong 3 'wrong.tsv:2: column base: "1,": expected numbers' 'base\n1,\n'
-wrong 3 'wrong.tsv:2: column model: "soft": expected one of basic' 'model\nsoft\n'
+wrong 3 'wrong.tsv:2: column model: "soft": expected one of basic' \
+  'model\nsoft\n'
 wrong 3 'wrong.tsv:2: column until-rest: "3": expected 1 or 0' 'until-rest\n3\n'
 wrong 3 'wrong.tsv:2: the quote of "1 does not end' 'seed\n"1\n'
 wrong 3 'wrong.tsv:2: a quote within' 'seed\n1"\n'
@@ -172,8 +175,8 @@ check 'two at once' test "$(cat status)" = 1 -a \
 
 # --- beds, and command lines --------------------------------------------------
 sweeps 0 'kept beds' --settle "$tiny" --keep 'my beds' runs.tsv
-check 'each is whole' test "$("$B/analyze" 'my beds/000002.tsv' | tail -n 1)" = \
-  "$(sed -n 3p three | cut -f 4-6)"
+check 'each is whole' test \
+  "$("$B/analyze" 'my beds/000002.tsv' | tail -n 1)" = "$(sed -n 3p three | cut -f 4-6)"
 check 'and there is no other file' test "$(find 'my beds' -type f | wc -l)" = 3
 sweeps 0 'command lines' --settle "$tiny" --dry-run runs.tsv
 check 'one that runs by itself' test "$(sed -n 2p out | bash | cut -f 2,4-)" = \
@@ -181,8 +184,8 @@ check 'one that runs by itself' test "$(sed -n 2p out | bash | cut -f 2,4-)" = \
 
 # --- means --------------------------------------------------------------------
 printf 'friction\tseed\tstatus\tunion\tmessage\n' >results.tsv
-printf '%s\t%s\t%s\t%s\t-\n' 0.1 1 0 1 0.2 1 0 5 0.1 2 0 2 0.1 3 0 6 0.2 2 4 nan \
-  >>results.tsv
+printf '%s\t%s\t%s\t%s\t-\n' 0.1 1 0 1 0.2 1 0 5 0.1 2 0 2 0.1 3 0 6 \
+  0.2 2 4 nan >>results.tsv
 sweeps 0 means --summary friction results.tsv
 check 'mean, standard error, number' test "$(sed 1d out | tr '\n\t' '; ')" = \
   '0.1 3 0 3 1.5275252316519468;0.2 1 1 5 nan;'
