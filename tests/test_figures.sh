@@ -42,7 +42,7 @@ declare -A makes=(
 # Targets that make no figure; bench-clean comes last.
 others=' all check clients fuzz deps demo install uninstall clean help readme'
 others+=' docs-figures bench-clean'
-others+=' sanitize tidy check-long check-quick deps-developer man '
+others+=' lammps sanitize tidy check-long check-quick deps-developer man '
 
 targets=()
 while read -r target _; do
