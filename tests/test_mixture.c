@@ -94,7 +94,7 @@ static void test_segregation(void) {
   for (int mixed = 0; mixed < 2; mixed++) {
     for (size_t i = 0; i < N; i++) {
       z[i] = (double)i / N;
-      r[i] = (mixed ? i % 10 < 3 : i < 0.3 * N) ? 0.1 : 0.101;
+      r[i] = (mixed ? i % 10 < 3 : (double)i < 0.3 * N) ? 0.1 : 0.101;
     }
     struct bed b = new_bed(N, r, z);
     struct mixture m;

@@ -46,16 +46,30 @@ run c --count 100 --sizes uniform:0.05,0.15 --time 0.1
 check 'resumed as in one go' cmp -s <(rows "$T/b" | cut -f1,5,6) <(rows "$T/c" | cut -f1,5,6)
 
 # The same bed on another scale, to the last bit: 4^-3 and 2^-2.
-run a --count 40 --sizes 'mix:0.1*0.4,0.05*0.6' --kappa 300 --time 0.8 --base 0.75,0.75
-run b --count 40 --sizes 'mix:0.0015625*0.4,0.00078125*0.6' --kappa 19200 --time 0.1 \
-  --mass 0.25 --base 0.01171875,0.01171875
-paste <(rows "$T/a") <(rows "$T/b") | awk '{
-    for (c = 2; c <= 12; c++) {
-      unit = c <= 5 ? 0.015625 : c == 6 ? 0.25 : c <= 9 ? 0.125 : 8
-      bad += $c * unit != $(c + 12) + 0
-    }
-  } END { exit !(NR == 40 && !bad) }'
-check 'similar mixtures' test $? = 0
+similar() { # OPTION...
+  run a --count 40 --sizes 'mix:0.1*0.4,0.05*0.6' --kappa 300 --time 0.8 \
+    --base 0.75,0.75 "$@"
+  run b --count 40 --sizes 'mix:0.0015625*0.4,0.00078125*0.6' --kappa 19200 --time 0.1 \
+    --mass 0.25 --base 0.01171875,0.01171875 "$@"
+  paste <(rows "$T/a") <(rows "$T/b") | awk '{
+      for (c = 2; c <= 12; c++) {
+        unit = c <= 5 ? 0.015625 : c == 6 ? 0.25 : c <= 9 ? 0.125 : 8
+        bad += $c * unit != $(c + 12) + 0
+      }
+    } END { exit !(NR == 40 && !bad) }'
+  check "similar mixtures: $*" test $? = 0
+}
+for method in multirate rkc; do
+  similar --method $method
+  similar --method $method --lever contact --rolling 0.1
+done
+check 'lever and rolling are in the header' test \
+  "$(header "$T/b" lever),$(header "$T/b" rolling)" = contact,0.1
+run c --scene "$T/b" --time 0.11
+check 'and stay there' test "$(header "$T/c" lever),$(header "$T/c" rolling)" = contact,0.1
+run d --scene "$T/b" --time 0.11 --rolling 0 --lever paper
+check 'and go' test -z "$(header "$T/d" rolling)"
+check 'another law, another bed' test "$(rows "$T/c" | md5sum)" != "$(rows "$T/d" | md5sum)"
 
 # Sieves: diameters, in any order, with names or without; percent too.
 printf '# sand\nmesh share\n0.4,0\n0.2 60\n0.1;40\n' > "$T/down.txt"
@@ -86,6 +100,8 @@ refused 2 '--shares: makes a start' --shares volume --scene "$T/b"
 refused 2 '--shares: expected --sizes' --shares volume
 refused 2 '--radius: expected no --sizes' --radius 1 --sizes uniform:1,2
 refused 2 "a sieve's are by volume" --shares number --sizes "sieve:$T/up.txt"
+refused 2 '--rolling: nothing turns' --rolling 0.1 --model friction
+refused 2 '--lever: nothing turns' --lever contact --friction 0
 refused 1 'no.txt' --sizes "sieve:$T/no.txt"
 bad_sieve() { # TEXT CONTENTS
   printf "$2" > "$T/bad.txt"
