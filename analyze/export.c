@@ -471,6 +471,7 @@ int verb_export(int argc, char **argv) {
   check_taken(options, q.format);
   box_check(&box);
   q.shape.box_given = box.count;
+  q.shape.images = q.format->boxed;
   check_together(options, &q, cells.count);
   q.chosen = given(options, "frame");
   q.all = which ? !strcmp(which, "all") : q.format->many && !q.chosen;

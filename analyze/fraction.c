@@ -218,6 +218,8 @@ int verb_fraction(int argc, char **argv) {
   while (tabulation_next(&t)) {
     if (!boxes_file)
       choose_boxes(&boxes, &t.frames, &box, until, slab);
+    frame_add_images(&t.frames, &t.bed, boxes.count,
+                     (const double(*)[6])boxes.at);
     box_watch_see(&t.watch, &t.frames, &t.bed, !boxes_file && !box.count,
                   boxes.count, (const double(*)[6])boxes.at);
     frame_check_box(&t.frames, &t.bed, boxes.at[smallest(&boxes)]);

@@ -63,14 +63,16 @@ static void take(struct beds *s, struct tabulation *t,
   compare(s, f);
   frame_choose_box(f, given, box);
   box_watch_see(&t->watch, f, b, !given->count, 1, (const double(*)[6])box);
+  const double radius = bed_mean(b, b->r), spheres = (double)b->n;
+  frame_add_images(f, b, 1, (const double(*)[6])box);
   frame_check_box(f, b, box);
   struct frames_part part = {f, 0, 1};
   const struct observer told = frames_observer(&part);
   frame_check(f, b, volume_union_told(b->n, b->x, b->r, box, &told, &united));
   struct scene scene = frame_scene(f, b);
-  s->kr[s->count - 1] = scene.law.kappa * bed_mean(b, b->r);
+  s->kr[s->count - 1] = scene.law.kappa * radius;
   s->share[s->count - 1] = united / box_volume(box);
-  s->spheres = (double)b->n;
+  s->spheres = spheres;
   scene_free(&scene);
 }
 

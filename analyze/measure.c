@@ -65,11 +65,44 @@ void header_walls(const struct bed_header *h, double box[6], bool walled[6]) {
   }
 }
 
+/* The numbers of a key, count of them; false if that is not what it has. */
+static bool header_numbers(const char *value, double count,
+                           struct option_list *numbers) {
+  struct option_spec spec = {
+      .type = OPTION_LIST, .value = numbers, .least = count, .most = count};
+  return value && !option_set(&spec, value);
+}
+
+/* Where periodic sides are instead of walls, or an upright tube, its inscribed
+   square. */
+static void header_sides(const struct bed_header *h, double box[6],
+                         bool sided[6]) {
+  struct option_list v;
+  const char *periodic = bed_header_get(h, "periodic");
+  for (int k = 0; k < 2; k++)
+    if (periodic && strchr(periodic, "xy"[k]) &&
+        header_numbers(bed_header_get(h, "base"), 2, &v)) {
+      box[2 * k] = 0;
+      box[2 * k + 1] = v.at[k];
+      sided[2 * k] = sided[2 * k + 1] = true;
+    }
+  for (size_t i = 0; i < h->count; i++)
+    if (!strcmp(h->at[i].name, "cylinder") &&
+        header_numbers(h->at[i].value, 7, &v) && v.at[3] == 0 && v.at[4] == 0)
+      for (int face = 0; face < 4; face++)
+        if (!sided[face]) {
+          const double half = (face % 2 ? 1 : -1) * v.at[6] * M_SQRT1_2;
+          box[face] = v.at[face / 2] + half;
+          sided[face] = true;
+        }
+}
+
 bool frame_base_box(const struct bed_header *h, double box[6]) {
   static const double unit[6] = {0, 1, 0, 1, 0, 1};
   double walls[6] = {0};
   bool walled[6];
   header_walls(h, walls, walled);
+  header_sides(h, walls, walled);
   walls[5] = walls[4] + GSL_MIN(walls[1] - walls[0], walls[3] - walls[2]);
   const bool base =
       walled[0] && walled[1] && walled[2] && walled[3] && walled[4];
@@ -84,6 +117,81 @@ void frame_choose_box(const struct frames *f, const struct option_list *given,
     memcpy(box, given->at, 6 * sizeof *box);
   else
     frame_base_box(frames_header(f), box);
+}
+
+/* Images that a frame may have. */
+static const double most_images = 1e7;
+
+/* How often the ball may be moved by whole periods along an axis so that it
+   still reaches into the box: from least to most. */
+static void image_range(double x, double r, double period, double low,
+                        double high, double *least, double *most) {
+  *least = *most = 0;
+  if (!(period > 0))
+    return;
+  *least = floor((low - r - x) / period) + 1;
+  *most = ceil((high + r - x) / period) - 1;
+}
+
+static void put_sphere(struct bed *to, size_t at, const struct bed *from,
+                       size_t i, const double move[2]) {
+  to->id[at] = from->id[i];
+  memcpy(to->x + 3 * at, from->x + 3 * i, 3 * sizeof *to->x);
+  memcpy(to->v + 3 * at, from->v + 3 * i, 3 * sizeof *to->v);
+  memcpy(to->w + 3 * at, from->w + 3 * i, 3 * sizeof *to->w);
+  to->x[3 * at] += move[0];
+  to->x[3 * at + 1] += move[1];
+  to->r[at] = from->r[i];
+  to->m[at] = from->m[i];
+}
+
+/* Puts the spheres and images of them that reach into the box to `to`, unless
+   that is NULL; how many. */
+static size_t put_images(const struct bed *b, const double period[3],
+                         const double box[6], struct bed *to) {
+  size_t count = 0;
+  for (size_t i = 0; i < b->n; i++) {
+    const double *x = b->x + 3 * i;
+    double from[2], until[2];
+    for (int k = 0; k < 2; k++)
+      image_range(x[k], b->r[i], period[k], box[2 * k], box[2 * k + 1],
+                  &from[k], &until[k]);
+    const double images = (until[0] - from[0] + 1) * (until[1] - from[1] + 1);
+    if (!to) {
+      count += images > most_images ? (size_t)most_images : (size_t)images;
+      continue;
+    }
+    for (double a = from[0]; a <= until[0]; a++)
+      for (double c = from[1]; c <= until[1]; c++)
+        put_sphere(to, count++, b, i,
+                   (const double[]){a * period[0], c * period[1]});
+  }
+  return count;
+}
+
+void frame_add_images(const struct frames *f, struct bed *b, size_t count,
+                      const double (*boxes)[6]) {
+  if (!b->n || !bed_header_get(frames_header(f), "periodic"))
+    return;
+  struct scene scene = frame_scene(f, b);
+  double all[6];
+  memcpy(all, boxes[0], sizeof all);
+  for (size_t k = 1; k < count; k++)
+    for (int face = 0; face < 6; face++)
+      all[face] = face % 2 ? fmax(all[face], boxes[k][face])
+                           : fmin(all[face], boxes[k][face]);
+  const size_t images = put_images(b, scene.period, all, NULL);
+  if ((double)images >= most_images)
+    frame_refuse(f, b,
+                 "a box so much larger than the periodic cell that the "
+                 "images in it are too many");
+  struct bed more;
+  frame_check(f, b, bed_alloc(&more, images));
+  put_images(b, scene.period, all, &more);
+  more.t = b->t;
+  bed_free(b);
+  *b = more;
+  scene_free(&scene);
 }
 
 /* The box that the spheres take up. */

@@ -36,8 +36,15 @@ void header_walls(const struct bed_header *h, double box[6], bool walled[6]);
 
 /* The bottom cube of the base that the header's walls enclose: on the floor,
    between side walls along x and y, as high as the shorter of the two is wide.
+   Periodic sides are like walls; in an upright tube it is the square inscribed.
    The unit cube, and false, where there are not all of them. */
 bool frame_base_box(const struct bed_header *h, double box[6]);
+
+/* Puts in place of the spheres of a bed with periodic sides all their images
+   that reach into any of the boxes, and no others: what fills them. Obstacles
+   are spheres like others then. Exits with one line where they are too many. */
+void frame_add_images(const struct frames *f, struct bed *b, size_t count,
+                      const double (*boxes)[6]);
 
 /* The box that was given; frame_base_box for one without numbers. */
 void frame_choose_box(const struct frames *f, const struct option_list *given,

@@ -129,6 +129,17 @@ static void check_wall(const struct where *w) {
         widest);
 }
 
+/* All that reaches into what is measured, across periodic sides. */
+static void add_images(struct tabulation *t, const struct where *w) {
+  double box[6];
+  memcpy(box, w->box, sizeof box);
+  for (int k = 0; k < 2 && w->cylinder; k++) {
+    box[2 * w->across[k]] = w->cylinder[k] - w->cylinder[2];
+    box[2 * w->across[k] + 1] = w->cylinder[k] + w->cylinder[2];
+  }
+  frame_add_images(&t->frames, &t->bed, 1, (const double(*)[6])box);
+}
+
 int verb_profile(int argc, char **argv) {
   struct option_list box = {0}, cylinder = {0};
   const char *axis = "z";
@@ -183,6 +194,7 @@ int verb_profile(int argc, char **argv) {
   while (tabulation_next(&t)) {
     frame_choose_box(&t.frames, &box, w.box);
     check_wall(&w);
+    add_images(&t, &w);
     box_watch_see(&t.watch, &t.frames, &t.bed, !box.count, 1,
                   (const double(*)[6])w.box);
     table_frame(&t.table, TABLE_PARTS, names);

@@ -143,11 +143,16 @@ void shape_make(struct shape *s, const struct shape_options *o,
                       .changed = o->gap_given || o->bridge > 0,
                       .fraction = GSL_NAN};
   memcpy(s->offset, o->offset, sizeof s->offset);
-  frame_check(f, b, bed_copy(&s->bed, b));
   if (o->box_given)
     memcpy(s->box, o->box, sizeof s->box);
   else
     frame_base_box(s->header, s->box);
+  if (o->images) {
+    frame_check(f, b, bed_copy(&s->images, b));
+    frame_add_images(f, &s->images, 1, (const double(*)[6])s->box);
+    s->source = b = &s->images;
+  }
+  frame_check(f, b, bed_copy(&s->bed, b));
   lattice(s->header, &s->bed, s->lattice);
   if (o->box_given)
     memcpy(s->lattice, s->box, sizeof s->lattice);
@@ -252,4 +257,5 @@ void shape_free(struct shape *s) {
   free(s->ends);
   s->ends = NULL;
   bed_free(&s->bed);
+  bed_free(&s->images);
 }

@@ -13,6 +13,7 @@
 struct shape_options {
   double scale, offset[3]; /* x becomes scale x + offset */
   double base; /* above 0: scale is such that the box is so wide along x */
+  bool images; /* of spheres across periodic sides, too */
   bool box_given;
   double box[6]; /* of fractions, voxels and surfaces; else the bed's base */
   bool gap_given;
@@ -24,7 +25,8 @@ struct shape_options {
 };
 
 struct shape {
-  struct bed bed; /* its own copy */
+  struct bed bed;    /* its own copy */
+  struct bed images; /* the frame with them, or empty */
   const struct bed_header *header;
   const struct frames *frames; /* for messages */
   struct solid solid;

@@ -123,13 +123,41 @@ sed 's/^# base=0.8,0.7/# base=0.4,0.7/' "$T/periodic.bed" > "$T/bad.bed"
 refused 3 'a periodic side of 0.4 m is too short' "$B/settle" --scene "$T/bad.bed"
 grep -v '^# base' "$T/periodic.bed" > "$T/bad.bed"
 refused 3 'periodic' "$B/analyze" contacts "$T/bad.bed"
+# all volume is in a cell that holds the bed, wherever it begins
+for x in 0,0.8 0.33,1.13 -5,-4.2; do
+  "$B/analyze" --box $x,-0.1,0.6,-1,9 "$T/periodic.bed" > "$T/tsv"
+  within "volume in $x" "$(awk -v f="$(row sum "$T/tsv")" 'BEGIN {
+    print f * 0.8 * 0.7 * 10 / (60 * 4e-3 / 3 * atan2(0, -1)) - 1 }')" -1e-12 1e-12
+  row union "$T/tsv" >> "$T/unions"
+done
+within 'its union is the same' "$(awk 'NR == 1 { a = $1 } { d = a - $1
+  if (d < 0) d = -d; if (d > most) most = d } END { print most }' "$T/unions")" 0 1e-13
+check 'default box of periodic sides' cmp -s <("$B/analyze" "$T/periodic.bed") \
+  <("$B/analyze" --box 0,0.8,0,0.7,0,0.7 "$T/periodic.bed")
+"$B/analyze" profile --points 50 --box 0.2,1,0.1,0.8,-1,9 "$T/periodic.bed" > "$T/a.tsv"
+"$B/analyze" profile --points 50 --box 0,0.8,0,0.7,-1,9 "$T/periodic.bed" > "$T/b.tsv"
+within 'profile across periodic sides' "$(paste "$T/a.tsv" "$T/b.tsv" | awk '
+  NR > 1 { d = $3 - $7; if (d < 0) d = -d; if (d > most) most = d }
+  END { print most }')" 0 1e-12
+"$B/analyze" export --format raw --cells 4 --output "$T/raw" "$T/periodic.bed" 2> "$T/err"
+check 'export states the fraction of the cell' grep -q \
+  "fraction $("$B/analyze" "$T/periodic.bed" | awk 'NR == 2 {
+    print substr($3, 1, 10) }')" "$T/err"
+# the square inscribed in a tube
+half=$(awk 'BEGIN { printf "%.17g", 0.35 * sqrt(0.5) }')
+"$B/analyze" "$T/rest.bed" > "$T/a.tsv"
+"$B/analyze" --box "$(awk -v h="$half" 'BEGIN { printf "%.17g,%.17g,%.17g,%.17g,0,%.17g",
+  0.3 - h, 0.3 + h, 0.2 - h, 0.2 + h, 2 * h }')" "$T/rest.bed" > "$T/b.tsv"
+within 'default box of a tube' "$(awk -v a="$(row union "$T/a.tsv")" \
+  -v b="$(row union "$T/b.tsv")" 'BEGIN { print a - b }')" -1e-9 1e-9
 # a checkpoint goes on to the last bit
 for walls in '--periodic xy' "--cylinder $tube"; do
   "$B/settle" --quiet $walls --count 20 --time 0.3 --output "$T/whole.bed"
   "$B/settle" --quiet $walls --count 20 --time 0.3 --output "$T/two.bed" \
     --checkpoint "$T/state" --every 0
-  cp "$T/two.bed" "$T/first.bed"
   check "$walls: with checkpoints" cmp -s "$T/whole.bed" "$T/two.bed"
+  "$B/settle" --quiet --resume "$T/state"
+  check "$walls: from a checkpoint" cmp -s "$T/whole.bed" "$T/two.bed"
 done
 
 check_done
