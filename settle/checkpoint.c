@@ -25,6 +25,11 @@ static void store_setup(const struct setup *setup, size_t **order,
                         struct option_texts *texts, struct store *s) {
   struct settings *set = setup->set;
   options_store(setup->options, texts, s);
+  if (s->loads) { /* the one that began the run */
+    free(set->command);
+    set->command = NULL;
+  }
+  store_text(s, &set->command);
   store_part(s, "similarity");
   store_plain(s, &set->similarity, sizeof set->similarity);
   bed_header_store(setup->header, s);
@@ -125,7 +130,7 @@ static void take_head(struct checkpoint *c, const char *path) {
         "%s: was made by a build with %s, this one is with %s: expected the "
         "same, for the same bits",
         path, value[BUILD], build);
-  snprintf(c->kernel, sizeof c->kernel, "%.31s", value[KERNEL]);
+  snprintf(c->kernel, sizeof c->kernel, "%.79s", value[KERNEL]);
 }
 
 static void check(const struct store *s, const char *path) {

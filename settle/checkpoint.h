@@ -30,7 +30,7 @@ bool checkpoint_write(struct output_file *f, double t, const char *kernel,
 struct checkpoint {
   FILE *stream; /* NULL: there is none */
   struct store store;
-  char kernel[32];
+  char kernel[80];
   struct option_texts texts;
 };
 

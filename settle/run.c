@@ -33,6 +33,7 @@ struct run {
   struct output_mark output_mark, log_mark, stats_mark;
   double last_checkpoint; /* on the wall's clock (s) */
   FILE *out;              /* for frames */
+  char kernel[80];        /* and the machine */
   bool failed;
   char mark[160]; /* of the bed, at its end */
 };
@@ -205,8 +206,7 @@ static bool write_checkpoint(struct run *r) {
       (!s->log || output_mark(&r->log, &r->log_mark)) &&
       (!s->stats || output_mark(&r->stats, &r->stats_mark)) &&
       checkpoint_write(&r->checkpoint, integrate_time(r->motion->integrator),
-                       dynamics_kernel(r->motion->dynamics), r->setup,
-                       store_all, r);
+                       r->kernel, r->setup, store_all, r);
   r->last_checkpoint = run_clock_now().wall;
   if (done) { /* it needs them */
     output_keep(&r->output);
@@ -334,16 +334,20 @@ static void start_motion(struct run *r, struct checkpoint *from) {
       motion_alloc(&r->motion, &s->scene, r->bed, &s->integrate,
                    &(struct dynamics_options){.all_pairs = s->all_pairs,
                                               .threads = (int)s->threads,
-                                              .order = r->setup->order},
+                                              .order = r->setup->order,
+                                              .kernel = s->kernel},
                    s->travel / s->scene.law.kappa);
+  if (status == GSL_EUNSUP)
+    die(EXIT_USAGE, "--kernel %s: this machine does not have it", s->kernel);
   if (status != GSL_SUCCESS)
     die_status(status, "method %s", s->integrate.method);
-  if (from->stream &&
-      strcmp(from->kernel, dynamics_kernel(r->motion->dynamics)))
+  snprintf(r->kernel, sizeof r->kernel, "%s on %s",
+           dynamics_kernel(r->motion->dynamics), dynamics_machine());
+  if (from->stream && strcmp(from->kernel, r->kernel))
     die(EXIT_INPUT,
-        "%s: was made with the kernel %s, this machine has %s: expected the "
-        "same, for the same bits",
-        s->resume, from->kernel, dynamics_kernel(r->motion->dynamics));
+        "%s: was made with the kernel %s, this is %s: expected the same, for "
+        "the same bits",
+        s->resume, from->kernel, r->kernel);
   r->y = malloc(dynamics_dimension(r->motion->dynamics) * sizeof *r->y);
   if (!r->y)
     die(EXIT_IO, "out of memory");

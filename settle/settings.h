@@ -20,6 +20,8 @@ struct settings {
   const char *sizes, *shares;   /* NULL: equal spheres; not given */
   struct similarity similarity; /* of the spheres to the paper's */
   double travel, time;
+  const char *kernel;  /* NULL: the best */
+  char *command;       /* words of the command line, for --stats */
   const char *pairs, *scene_file, *stats, *log;
   const char *output;              /* NULL: standard output */
   const char *checkpoint, *resume; /* files, or NULL */

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include "dynamics/dynamics.h"
 #include "platform/system.h"
 #include "export_lammps.h"
 #include "run.h"
@@ -36,6 +37,10 @@ static void by_friction(char *text, size_t size) {
 
 static void by_vmin(char *text, size_t size) {
   snprintf(text, size, "by --vmin");
+}
+
+static void best_kernel(char *text, size_t size) {
+  snprintf(text, size, "the best that the machine has");
 }
 
 /* As start.c chooses it. */
@@ -145,6 +150,9 @@ int main(int argc, char **argv) {
       INTEGRATION_OPTIONS(s.integrate, s.travel),
       {.name = "pairs", .type = OPTION_TEXT, .value = &s.pairs,
        .choices = pair_searches, .help = "how pairs are found"},
+      {.name = "kernel", .type = OPTION_TEXT, .value = &s.kernel,
+       .choices = dynamics_kernels, .unset = best_kernel,
+       .help = "instruction set of the forces, which the last bits depend on"},
       {.name = "until-rest", .type = OPTION_FLAG, .value = &s.until_rest,
        .help = "end once the bed hardly moves or settles any more; --time is "
                "then the longest"},
@@ -185,6 +193,7 @@ int main(int argc, char **argv) {
       .usage = "[OPTION...] > bed.tsv",
       .example = "settle --model basic --seed 3 | analyze",
       .options = options};
+  s.command = command_words(argc, argv); /* before they are put in order */
   const int operand = options_parse(&program, argc, argv);
   if (operand < argc)
     die(EXIT_USAGE, "'%s': expected options only", argv[operand]);
@@ -222,6 +231,7 @@ int main(int argc, char **argv) {
       target_tell(&s, &bed);
   }
   free(setup.order);
+  free(s.command);
   option_texts_free(&from.texts);
   bed_free(&bed);
   bed_header_free(&header);

@@ -72,7 +72,8 @@ static double settle(const struct search *q, double friction) {
   int status =
       motion_alloc(&m, &scene, &b, &s->integrate,
                    &(struct dynamics_options){.all_pairs = s->all_pairs,
-                                              .threads = (int)s->threads},
+                                              .threads = (int)s->threads,
+                                              .kernel = s->kernel},
                    s->travel / scene.law.kappa);
   if (status != GSL_SUCCESS)
     die_status(status, "method %s", s->integrate.method);

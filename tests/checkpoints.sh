@@ -3,7 +3,7 @@
 # checkpoint in $D. After harness.sh.
 
 timeless() { # FILE: statistics but for what a stop changes
-  grep -vE '^(cpu_seconds|wall_seconds|peak_memory_kb|threads)' "$1"
+  grep -vE '^(cpu_seconds|wall_seconds|peak_memory_kb|threads|command)' "$1"
 }
 
 unbroken() { # ARGUMENT...: the run that others are compared with, in $T/whole

@@ -202,10 +202,25 @@ refused 'is on' 2 'is being written by another run' --resume "$D/check"
 kill -s KILL $pid
 wait $pid 2>/dev/null
 # another kernel, where the machine has several
-if [[ $(uname -m) == x86_64 ]] && ! grep -qa 'kernel=x86_64$' "$D/check"; then
+if [[ $(uname -m) == x86_64 ]] && ! grep -qa 'kernel=x86_64 ' "$D/check"; then
   DEM_ISA=x86_64 refused 'another kernel' 3 \
-    'check: was made with the kernel x86_64_v., this' --resume "$D/check"
+    'check: was made with the kernel x86_64_v. on x86_64_v., this is x86_64 on' \
+    --resume "$D/check"
 fi
+
+# a kernel that was asked for is asked for again
+unbroken "${small[@]}" --time 1
+kernel=$("$B/settle" --help | sed -n '/--kernel/{n;s/.*one of \([^ ]*\).*/\1/p}')
+rm -f "$D"/*
+begin "${small[@]}" --time 1 --every 0.002 --kernel "${kernel:-native}"
+wait_for_checkpoints 2
+kill -s KILL $pid
+wait $pid 2>/dev/null
+resume
+end
+check "kernel $kernel: exit status $status" test "$status" = 0
+check "kernel $kernel: that of the run" test \
+  "$(sed -n 's/^kernel\t//p' "$D/stats")" = "${kernel:-native}"
 
 # --- a checkpoint that cannot be written --------------------------------------
 rm -f "$D"/*

@@ -70,7 +70,7 @@ static struct contact_list *part_of(const struct contact_list *l) {
 
 static void evaluate(const struct contact_list *l, const double *y,
                      double *rates) {
-  CHECK(rates_evaluate(l, kernel_select(), y,
+  CHECK(rates_evaluate(l, kernel_select(NULL), y,
                        &(struct rates_to){.dydt = rates}) == GSL_SUCCESS);
 }
 

@@ -13,6 +13,16 @@
 #include "dynamics/scale.h"
 #include "model/travel.h"
 
+const char *const *const dynamics_kernels = kernel_names;
+
+const char *dynamics_machine(void) {
+  const char *const *best = kernel_names;
+  for (const char *const *name = kernel_names; *name; name++)
+    if (kernel_select(*name))
+      best = name;
+  return *best;
+}
+
 void dynamics_free(struct dynamics *d) {
   if (!d)
     return;
@@ -27,9 +37,10 @@ int dynamics_alloc(struct dynamics **out, const struct scene *s,
   if (!d)
     return GSL_ENOMEM;
   d->options = *o;
-  d->kernel = kernel_select();
-  const int status =
-      contact_list_alloc(&d->list, s, b, (size_t)o->threads, o->order);
+  d->kernel = kernel_select(o->kernel);
+  int status = d->kernel ? GSL_SUCCESS : GSL_EUNSUP;
+  if (status == GSL_SUCCESS)
+    status = contact_list_alloc(&d->list, s, b, (size_t)o->threads, o->order);
   if (status != GSL_SUCCESS) {
     dynamics_free(d);
     return status;

@@ -27,7 +27,14 @@ struct dynamics_options {
   int threads;    /* at least 1 */
   /* Of the rows: the spheres, as dynamics_order had them; NULL: by places. */
   const size_t *order;
+  const char *kernel; /* one of dynamics_kernels; NULL: the best here */
 };
+
+/* Names of kernels, by instruction set, and NULL: the same one rounds in the
+   same way. */
+extern const char *const *const dynamics_kernels;
+/* The best of them here. Libraries round by it too, whatever kernel is taken. */
+const char *dynamics_machine(void);
 
 struct dynamics_counts {
   /* Of the right-hand side, where that of a part of the bed counts by its share
@@ -39,7 +46,8 @@ struct dynamics_counts {
 
 /* Prepares a scene and its spheres; keeps no pointer to either. GSL_EINVAL if
    there is no sphere that moves, more than 2^32 - 2 of them, or a radius or
-   mass is not positive; GSL_ENOMEM. Tested in tests/test_memory.c too. */
+   mass is not positive; GSL_EUNSUP for a kernel that this machine does not
+   have; GSL_ENOMEM. Tested in tests/test_memory.c too. */
 int dynamics_alloc(struct dynamics **out, const struct scene *s,
                    const struct bed *b, const struct dynamics_options *o);
 void dynamics_free(struct dynamics *d);

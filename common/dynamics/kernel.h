@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later */
 /* The hot loop: contact forces of a list of contacts, added up by sphere. The
    same source, kernel.c, is compiled for several instruction sets;
-   kernel_select gives the best that this machine has. Internal to rates.c.
+   kernel_select gives one that this machine has. Internal to rates.c.
 
    A pair is evaluated once and added to both its spheres, in the order of the
    list: first what a sphere gets as second partner, then as first, then from
@@ -32,6 +32,12 @@ struct kernel {
                  const struct contact_part *part);
 };
 
-const struct kernel *kernel_select(void);
+/* The kernels of this build, the least first, and NULL. */
+extern const char *const kernel_names[];
+
+/* The one of that name, NULL: the best that this machine has. NULL if this
+   machine does not have it. DEM_ISA, in the environment, asks for less in place
+   of the best: for tests. */
+const struct kernel *kernel_select(const char *name);
 
 #endif

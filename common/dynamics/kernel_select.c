@@ -33,23 +33,25 @@ static bool machine_has_v4(void) {
          HAS("avx512cd") && HAS("avx512dq") && HAS("avx512vl");
 }
 
-const struct kernel *kernel_select(void) {
-  /* DEM_ISA=x86_64 or x86_64_v3 asks for less than the machine has, for tests
-     and benchmarks. */
-  const char *most = getenv("DEM_ISA");
-  if (!most)
-    most = "";
+const char *const kernel_names[] = {"x86_64", "x86_64_v3", "x86_64_v4", NULL};
+
+const struct kernel *kernel_select(const char *name) {
+  const struct kernel *const all[] = {&kernel_x86_64, &kernel_x86_64_v3,
+                                      &kernel_x86_64_v4};
   __builtin_cpu_init();
-  if (!strcmp(most, kernel_x86_64.name) || !machine_has_v3())
-    return &kernel_x86_64;
-  if (!strcmp(most, kernel_x86_64_v3.name) || !machine_has_v4())
-    return &kernel_x86_64_v3;
-  return &kernel_x86_64_v4;
+  const size_t count = machine_has_v4() ? 3 : machine_has_v3() ? 2 : 1;
+  const char *less = getenv("DEM_ISA");
+  for (size_t k = 0; k < count; k++)
+    if (!strcmp(all[k]->name, name ? name : less ? less : ""))
+      return all[k];
+  return name ? NULL : all[count - 1];
 }
 #else
 extern const struct kernel kernel_native;
 
-const struct kernel *kernel_select(void) {
-  return &kernel_native;
+const char *const kernel_names[] = {"native", NULL};
+
+const struct kernel *kernel_select(const char *name) {
+  return !name || !strcmp(name, kernel_native.name) ? &kernel_native : NULL;
 }
 #endif

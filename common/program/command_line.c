@@ -4,6 +4,7 @@
 #include <assert.h>
 #include <getopt.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include "program/begin.h"
 #include "program/suggest.h"
@@ -70,4 +71,40 @@ int options_parse(const struct program *p, int argc, char **argv) {
     o->given = true;
   }
   return optind;
+}
+
+/* As a shell reads it back: 'it'\\''s'. A line stays one. */
+static char *quote(char *to, const char *word) {
+  const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                       "0123456789-_=./,:+%@";
+  if (*word && !word[strspn(word, plain)]) {
+    strcpy(to, word);
+    return to + strlen(word);
+  }
+  *to++ = '\'';
+  for (; *word; word++) {
+    const bool is_quote = *word == '\'';
+    if (is_quote)
+      to += strlen(strcpy(to, "'\\'"));
+    *to++ = *word == '\n' ? ' ' : *word;
+  }
+  *to++ = '\'';
+  *to = 0;
+  return to;
+}
+
+char *command_words(int argc, char *const argv[]) {
+  size_t length = 1;
+  for (int k = 0; k < argc; k++)
+    length += 4 * strlen(argv[k]) + 3;
+  char *const words = malloc(length), *at = words;
+  if (!words)
+    die(EXIT_IO, "out of memory");
+  *at = 0;
+  for (int k = 0; k < argc; k++) {
+    if (k)
+      *at++ = ' ';
+    at = quote(at, argv[k]);
+  }
+  return words;
 }

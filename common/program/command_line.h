@@ -14,4 +14,8 @@
    mistake exits with EXIT_USAGE. Returns the index of the first operand. */
 int options_parse(const struct program *p, int argc, char **argv);
 
+/* The words of a command line in one line of memory of its own, in quotes where
+   the shell needs those. Exits without memory. */
+char *command_words(int argc, char *const argv[]);
+
 #endif
