@@ -18,6 +18,19 @@ static void refuse_beside(struct option_spec *options, const char *one,
         one);
 }
 
+/* Area that carries the bed (m^2): of the upright cylinder or of the box. */
+static double base_area(const struct settings *s) {
+  for (size_t k = 0; k < s->scene.walls_count; k++) {
+    const struct wall *w = &s->scene.walls[k];
+    if (w->radius > 0 && fabs(w->normal[2]) < 1 - 1e-9)
+      die(EXIT_USAGE, "--overlap: the load follows from the base, expected "
+                      "--kappa and --f0 beside a cylinder that leans");
+    if (w->radius > 0)
+      return M_PI * gsl_pow_2(w->radius);
+  }
+  return s->words.base.at[0] * s->words.base.at[1];
+}
+
 static void take_overlap(struct settings *s, struct option_spec *options,
                          const struct bed *b, const struct bed_header *h) {
   struct contact_law *c = &s->scene.law;
@@ -41,8 +54,7 @@ static void take_overlap(struct settings *s, struct option_spec *options,
     }
   const double diameter = 2 * bed_mean(b, b->r);
   const struct softness_load load = {.weight = mass * -g[2],
-                                     .area = s->words.base.at[0] *
-                                             s->words.base.at[1],
+                                     .area = base_area(s),
                                      .volume = 4 * M_PI / 3 * cubes / count,
                                      .diameter = diameter};
   c->f0 = softness_f0(&load, c->restitution);

@@ -49,6 +49,10 @@ check 'no key of its own' test -z "$(header "$T/a" overlap)"
 # of a bed that has been made, by the base in its header
 "$B/settle" --overlap 0.01 --scene "$T/a" --time 0 --quiet >"$T/d"
 check 'of a scene' test "$(ratio kappa "$T/a" "$T/d")" = 2
+# a tube has pi/4 of the area of its square
+"$B/settle" --overlap 0.01 --cylinder 0,0,0,0,0,1,0.5 --time 0 --quiet >"$T/d"
+"$B/settle" --overlap 0.01 --time 0 --quiet >"$T/c"
+check 'of a tube' test "$(ratio f0 "$T/d" "$T/c")" = 0.785398163397
 
 "$B/settle" --creep 0.05 --time 2 --count 4 >"$T/a" 2>"$T/err"
 check 'creep: 2 * 0.05 * 0.1 / 2' test "$(ratio vmin "$T/a" \
@@ -68,6 +72,8 @@ refuse '--vmin: follows from --creep' --creep 0.1 --vmin 0.001
 refuse 'gravity downwards' --overlap 0.01 --gravity 0
 refuse 'gravity downwards' --overlap 0.01 --gravity 1,0,-9
 refuse 'beside other walls' --overlap 0.01 --wall 0,0,0,0,0,-1
+refuse 'a cylinder that leans' --overlap 0.01 --cylinder 0,0,0,1,0,9,0.5 \
+  --count 1
 refuse 'without friction' --creep 0.1 --model basic
 refuse 'without friction' --creep 0.1 --friction 0
 refuse '--time above 0' --creep 0.1 --time 0
