@@ -15,6 +15,7 @@ declare -A makes=(
   [fig4.5]='fig4.5.svg' [table4.1]='table4.1.md:9' [table-costs]='table-costs.md:15'
   [kappa]='kappa.md:3' [figures]=''
   [fig-gr]='gr.svg' [structure]='structure.md:2'
+  [softness]='hardness.svg budget.svg softness.md:8 softness-limits.md:2'
   [table-radius]='table-radius.md:8' [fig-walls]='walls.svg walls.md:10'
   [fig-handover]='handover.svg'
   [fig-mixtures]='mixtures.svg mixtures.md:4'

@@ -33,9 +33,9 @@ double softness_creep(double vmin, double time) {
 }
 
 double softness_error(double kappa_radius) {
-  return 1.4 / kappa_radius;
+  return 1.2 / kappa_radius;
 }
 
 double softness_creep_error(double radii) {
-  return 0.04 * fmin(1, radii / 0.4);
+  return 0.025 * fmin(1, radii / 0.4);
 }
