@@ -6,10 +6,10 @@
 #include "model/softness.h"
 
 /* Evaluations grow with this power of the stiffness of friction, with methods
-   that adapt to it: six times as many for ten times (measured,
+   that adapt to it: four to six times as many for ten times (measured,
    docs/softness.md).
  */
-static const double stiff_cost = 0.78;
+static const double stiff_cost = 0.7;
 
 static void refuse_beside(struct option_spec *options, const char *one,
                           const char *other) {

@@ -17,19 +17,25 @@ of(k, known) = strcol("source") eq name(k) && column("limit") == (known ? 0 : 1)
 colour(k) = word(vermillion." ".purple." ".orange." ".green." ".black." ".blue, k)
 point(k) = int(word("7 5 9 11 13 15", k))
 set logscale xy
-set format y "%g"
+set format y "10^{%T}"
 set format x "%g"
 set xlabel "CPU time (s)"
 set ylabel "error of the union"
-set xrange [0.1:60]
-set yrange [2e-4:0.2]
-set lmargin at screen 0.175
-set ylabel offset (style_end eq ".svg" ? 0.3 : -1.2),0
+set xrange [*<0.1:60<*]
+set yrange [1e-4:0.1<*]
+set lmargin at screen 0.16
+# of any source, by name: its number and its colour as one
+number_of(s) = s eq "softness" ? 1 : s eq "walls" ? 2 : s eq "creep" ? 3 : \
+  s eq "not at rest" ? 4 : s eq "chance" ? 5 : 6
+rgb(s) = int(word("13983232 13400487 15113984 40563 0 29362", number_of(s)))
+all(known) = column("limit") == (known ? 0 : 1) ? column("error") : NaN
 plot for [k=1:6] ARG1 using "cpu":(of(k, 1)) with linespoints pt point(k) \
     ps symbol lw line lc rgb colour(k) title name(k), \
-  for [k=1:6] ARG1 using "cpu":(of(k, 1)):(sprintf("%g", column("setting"))) \
-    with labels left offset 0.6,0.35 font ",13" tc rgb colour(k) notitle, \
-  for [k=1:6] ARG1 using "cpu":(of(k, 0)):(0):(-0.4*column("error")) \
-    with vectors lw thin lc rgb colour(k) notitle, \
-  for [k=1:6] ARG1 using "cpu":(of(k, 0)) with points pt point(k) \
-    ps 0.6*symbol lw thin lc rgb colour(k) notitle
+  ARG1 using "cpu":(all(1)):(sprintf("%g", column("setting"))): \
+    (rgb(strcol("source"))) with labels left offset 0.6,0.35 font ",13" \
+    tc rgb variable notitle, \
+  ARG1 using "cpu":(all(0)):(0):(-0.4*column("error")):(rgb(strcol("source"))) \
+    with vectors lw thin lc rgb variable notitle, \
+  ARG1 using "cpu":(all(0)):(sprintf("%g", column("setting"))): \
+    (rgb(strcol("source"))) with labels left offset 0.6,0 font ",13" \
+    tc rgb variable notitle

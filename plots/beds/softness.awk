@@ -76,6 +76,7 @@ function fit(set, least,  i, j, k, x, m, sx, sy, sxx, sxy, d, squares) {
       squares += (u[k, j] - fit_u - fit_c / xs[set, i])^2
   }
   fit_error = sqrt(squares / (m - 2) * sxx / d)
+  slope_error = sqrt(squares / (m - 2) * m / d)
   return 1
 }
 function name(set,  p) {
@@ -134,30 +135,28 @@ END {
     }
   } else {
     print "source", "setting", "cpu", "error", "uncertainty", "limit"
-    # softness: from the limit of the same set
+    # softness: by the law, and where it does not hold from its limit
     set = 0.2 SUBSEP 0.01 SUBSEP "8 s"
     if (fit(set, 29))
       for (j = 1; j <= number[set]; j++) {
         k = key(set, xs[set, j])
-        budget("softness", xs[set, j], cpu[k] / n[k], mean(k) - fit_u,
-          sqrt(error(k)^2 + fit_error^2))
+        budget("softness", xs[set, j], cpu[k] / n[k],
+          xs[set, j] < 29 ? mean(k) - fit_u : fit_c / xs[set, j],
+          xs[set, j] < 29 ? sqrt(error(k)^2 + fit_error^2) : slope_error / xs[set, j])
       }
-    # creep, at kr 60: from the least v_min, by seed
-    least = ""
+    # creep, at kr 60: from the least v_min, by seed; largest first
     for (i = 1; i <= count; i++) {
       split(order[i], p, SUBSEP)
-      k = key(order[i], 60)
-      if (p[1] == 0.2 && p[3] == "8 s" && (k in n) && (least == "" || p[2] < least)) {
-        least = p[2]; to = k
+      if (p[1] == 0.2 && p[3] == "8 s" && (key(order[i], 60) in n)) {
+        at_vmin[p[2]] = key(order[i], 60)
+        xs["vmin", ++number["vmin"]] = p[2] + 0
       }
     }
-    for (i = 1; i <= count; i++) {
-      split(order[i], p, SUBSEP)
-      k = key(order[i], 60)
-      if (p[1] == 0.2 && p[3] == "8 s" && (k in n) && p[2] != least) {
-        pairs(k, to)
-        budget("creep", p[2], cpu[k] / n[k], pair_mean, pair_error)
-      }
+    sorted("vmin")
+    for (j = number["vmin"]; j > 1; j--) {
+      k = at_vmin[xs["vmin", j]]
+      pairs(k, at_vmin[xs["vmin", 1]])
+      budget("creep", xs["vmin", j], cpu[k] / n[k], pair_mean, pair_error)
     }
     # walls: from the limit of U + c/side
     if (fit("base", 0))

@@ -5,7 +5,7 @@
 # and at rest; some 4 minutes of CPU time.
 SOFT := $(D)/soft
 SOFT_KAPPAS := 300 600 $(if $(QUICK),,150 1200 2400 4800)
-SOFT_CREEPING := 300 600 $(if $(QUICK),,150 2400)
+SOFT_CREEPING := 300 600 $(if $(QUICK),,150)
 SOFT_LMAX_150 := 0.1
 SOFT_LMAX_300 := 0.05
 SOFT_LMAX_600 := 0.025
