@@ -41,7 +41,6 @@ static void take_overlap(struct settings *s, struct option_spec *options,
     die(EXIT_USAGE, "--overlap: needs a load, expected gravity downwards");
   /* a scene with other walls has no base that is known */
   if (option_find(options, "wall")->given ||
-      option_find(options, "cylinder")->given ||
       (s->scene_file && !bed_header_get(h, "base")))
     die(EXIT_USAGE, "--overlap: the load follows from the base of a box, "
                     "expected --kappa and --f0 beside other walls");

@@ -69,5 +69,6 @@ refuse 'no --friction' --friction 0.3
 refuse 'no --scene' --scene "$T/bed"
 refuse 'no --wall' --wall 0,0,0,0,0,-1
 refuse 'another model than basic' --model basic
+refuse 'no --periodic' --periodic xy
 refuse 'no --step' --step 1e-4 --method verlet
 check_done

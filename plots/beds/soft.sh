@@ -7,8 +7,8 @@
 # Columns: the settings, "-" where settle chose; kr, kappa times the radius; t,
 # the end (s); the union in the cube over the floor, up to 1 m, or as BOX, options
 # of analyze, says; the contacts of a sphere that carry a tenth of a weight or
-# more (z), also of those that are held (held); mean and largest overlap of spheres that touch (diameters); evaluations
-# and CPU time (s).
+# more (z), also of those that are held (held); mean and largest overlap of
+# spheres that touch (diameters); evaluations and CPU time (s).
 set -eu -o pipefail
 export LC_ALL=C
 B=${B:-build}
