@@ -3,9 +3,9 @@
 # Runs test programs and scripts, JOBS=2 at a time, and prints of each a line
 # with its checks, its sites (places in the source that check something: one
 # place in a loop checks often) and its time; before that its output, if
-# something failed. The last line is "N passed, N failed" for all. A program
-# that ends without its own such line, or with an exit status of its own, counts
-# as one more failure.
+# something failed. What failed is named again at the end, as "test: what". The
+# last line is "N passed, N failed" for all. A program that ends without its own
+# such line, or with an exit status of its own, counts as one more failure.
 set -u
 
 run_one() { # TEST: its line, "PASSED FAILED SITES" into a file of $RUN_RESULTS
@@ -23,6 +23,9 @@ run_one() { # TEST: its line, "PASSED FAILED SITES" into a file of $RUN_RESULTS
   last=$(tail -n 2 <<<"$output" | head -n 1)
   [[ $last =~ ^([0-9]+)\ sites$ ]] && sites=${BASH_REMATCH[1]}
   echo "$p $f $sites" >"$RUN_RESULTS/$name"
+  if ((f > 0)); then # what failed
+    grep -aE '^failed|^[^ ]+: failed: ' <<<"$output" || echo "exit status $status"
+  fi | sed "s/^failed: *//; s/: failed: /: /; s/^/failed in $name: /" >"$RUN_RESULTS/$name.failed"
   # in one write, so that the lines of two tests do not mix
   ((f == 0)) || printf '%s\n%s: exit status %d\n' "$output" "$name" "$status"
   grep '^skipped' <<<"$output" | sed "s/^/$name: /"
@@ -38,7 +41,10 @@ RUN_RESULTS=$(mktemp -d) || exit 1
 # Two tests share the cores: threads that wait must not spin.
 export RUN_RESULTS OMP_WAIT_POLICY=passive
 trap 'rm -rf "$RUN_RESULTS"' EXIT
+shopt -s nullglob
 printf '%s\0' "$@" | xargs -0 -n 1 -P "${JOBS:-2}" "$0" --one
+cat /dev/null "$RUN_RESULTS"/*.failed
+rm -f "$RUN_RESULTS"/*.failed
 # a test that took the runner with it has left no file
 cat "$RUN_RESULTS"/* /dev/null | awk -v tests=$# '
   {passed += $1; failed += $2; sites += $3}

@@ -29,6 +29,13 @@ check 'its sites' grep -q '^1 tests with 2 sites$' "$T/out"
 run good bad
 check 'a failed check' ends '8 passed, 2 failed' 1
 check 'with its output' grep -qx 'what it said' "$T/out"
+check 'and its name at the end' test "$(tail -n 3 "$T/out" | head -n 1)" = \
+  'failed in bad: exit status 1'
+test_of names 'echo "failed: the first"; echo "a.c:7: failed: x == y"' \
+  'echo "1 passed, 2 failed"; exit 1'
+run names
+check 'what failed is named at the end' cmp -s <(head -n -2 "$T/out" | tail -n 2) \
+  <(printf 'failed in names: %s\n' 'the first' 'a.c:7: x == y')
 run good liar
 check 'an exit status of its own' ends '7 passed, 1 failed' 1
 run good silent

@@ -149,8 +149,8 @@ check 'ignored signals: as well' grep -q ' 0 failed' "$T/sum"
 # Another pipe than standard output is an error that is named, and the bed is
 # not lost.
 mkfifo "$D/fifo"
-head -n 1 "$D/fifo" >"$T/line" &
-timeout 60 "$B/settle" --quiet --count 8 --method merson --time 2 \
+: <"$D/fifo" & # opened, and closed at once
+timeout 60 "$B/settle" --quiet --count 8 --method merson --time 10 \
   --log "$D/fifo" >"$T/out" 2>"$T/err"
 status=$?
 check "a pipe beside it breaks: status $status" test $status = 1
