@@ -4,7 +4,8 @@
 # what others expect of hard spheres. Both panels have the same range of
 # fractions.
 #   gnuplot -c plots/mixtures/mixtures.gp MIXTURES OUT
-# MIXTURES: columns kind, value, deviation, union, interval, rods, spread.
+# MIXTURES: columns kind, value, deviation, inner share, union, interval, rods,
+# spread.
 set loadpath system("dirname '".ARG0."'")."/.."
 height = 1000
 columns = "kind value deviation union interval rods spread"
@@ -14,20 +15,20 @@ of(what, name) = strcol("kind") eq what ? column(name) : NaN
 set key samplen 1.7 width -1 maxrows 3
 set multiplot
 set lmargin 8.5
-set rmargin 3
+set rmargin 4
 set yrange [*<0.55:0.8<*]
 set ylabel "solid fraction (union)"
 set tmargin at screen 0.985
 set bmargin at screen 0.66
 set xlabel "share of the large spheres in the volume"
-set xrange [0:1]
+set xrange [0.3:1]
 unset key
 plot ARG1 using (of("two", "value")):(of("two", "rods")) with linespoints \
     lw line pt 6 ps symbol lc rgb blue, \
-  ARG1 using (of("two", "value")):(of("two", "union")):"interval" \
+  ARG1 using (of("two", "inner share")):(of("two", "union")):"interval" \
     with yerrorbars pt 7 ps symbol lw thin lc rgb vermillion, \
-  ARG1 using (of("two", "value")):(of("two", "union")) with points pt 7 \
-    ps symbol lc rgb vermillion
+  ARG1 using (of("two", "inner share")):(of("two", "union")) with points \
+    pt 7 ps symbol lc rgb vermillion
 set tmargin at screen 0.565
 set bmargin at screen 0.22
 set xlabel "standard deviation of the radii by their mean"

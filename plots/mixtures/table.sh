@@ -5,8 +5,10 @@
 # and VALUE one after the other. The union is that of the inner part: from 0.2 to
 # 0.8 of the base and from 0.2 to 0.75 of the height that the spheres would have
 # at a fraction of 0.65. Columns: kind, value, deviation (of the radii by their
-# mean), beds, union, interval (95 %, Student's t; nan for one bed), rods, spread
-# (see analyze mixture --help; nan for two sizes, which it is not made for).
+# mean), beds, inner share (of the large of two sizes in the inner part: small
+# ones fill it at the walls), union, interval (95 %, Student's t; nan for one
+# bed), rods, spread (see analyze mixture --help; nan for two sizes, which it is
+# not made for).
 # B is the directory of the programs.
 set -eu
 B=${B:-build}
@@ -20,7 +22,9 @@ for bed in "$@"; do
       print 0.2 * b "," 0.8 * b "," 0.2 * b "," 0.8 * b "," 0.2 * h "," 0.75 * h
     }' "$bed")
   union=$("$B/analyze" --box "$box" "$bed" | awk 'END { print $3 }')
-  printf '%s\t%s\t%s\n' "${name%-*}" "$union" \
+  share=$("$B/analyze" mixture --classes 0.05 --box "$box" "$bed" |
+    awk -F '\t' 'NR > 1 { v[NR] = $7; all += $7 } END { print v[3] / all }')
+  printf '%s\t%s\t%s\t%s\n' "${name%-*}" "$union" "$share" \
     "$("$B/analyze" mixture --close "$bed" | tail -n 1)"
 done | awk -F '\t' -v OFS='\t' '
   function flush(  m, v, interval) {
@@ -33,14 +37,16 @@ done | awk -F '\t' -v OFS='\t' '
     interval = "nan"
     if (n > 1)
       interval = sprintf("%.4f", student[n - 1] * sqrt(v > 0 ? v : 0))
-    printf "%s\t%s\t%.3f\t%d\t%.4f\t%s\t%.4f\t%s\n", part[1], part[2],
-      deviation / n, n, m, interval, rods / n,
+    printf "%s\t%s\t%.3f\t%d\t%s\t%.4f\t%s\t%.4f\t%s\n", part[1],
+      part[2], deviation / n, n,
+      (part[1] == "two" ? sprintf("%.2f", share / n) : "nan"), m, interval,
+      rods / n,
       (part[1] == "two" ? "nan" : sprintf("%.4f", spread / n))
-    n = sum = squares = deviation = rods = spread = 0
+    n = sum = squares = share = deviation = rods = spread = 0
   }
   BEGIN {
-    print "kind", "value", "deviation", "beds", "union", "interval", "rods",
-      "spread"
+    print "kind", "value", "deviation", "beds", "inner share", "union",
+      "interval", "rods", "spread"
   }
   $1 != last { flush() }
   {
@@ -48,8 +54,9 @@ done | awk -F '\t' -v OFS='\t' '
     n++
     sum += $2
     squares += $2 * $2
-    deviation += $5
-    rods += $7
-    spread += $8
+    share += $3
+    deviation += $6
+    rods += $8
+    spread += $9
   }
   END { flush() }'
