@@ -118,6 +118,8 @@ static void measure(struct tabulation *t, const struct set *set) {
   frame_check(&t->frames, b, network_find(&w, &scene, b, GSL_MAX(set->gap, 0)));
   network_mark(&w, set->gap, 0);
   mixture_measure(&m, b, inside, &w);
+  if (!set->close) /* volumes are those of all images */
+    frame_add_images(&t->frames, &t->bed, 1, (const double(*)[6])box);
   double *room = measure_alloc(b->n, 4 * sizeof *room);
   if (set->close) {
     table_frame(&t->table, TABLE_ROWS,

@@ -71,6 +71,22 @@ run d --scene "$T/b" --time 0.11 --rolling 0 --lever paper
 check 'and go' test -z "$(header "$T/d" rolling)"
 check 'another law, another bed' test "$(rows "$T/c" | md5sum)" != "$(rows "$T/d" | md5sum)"
 
+# Classes add up to the whole, across periodic sides too.
+for sides in '' '--periodic xy'; do
+  # shellcheck disable=SC2086 # words
+  run a --count 60 --sizes 'mix:0.1*0.4,0.05*0.6' --kappa 600 --time 1 \
+    --base 0.75,0.75 $sides
+  "$B"/analyze "$T/a" > "$T/whole" 2> "$T/err"
+  "$B"/analyze mixture "$T/a" > "$T/classes" 2> "$T/err"
+  within "sum of the classes, sides '$sides'" "$(paste <(tail -n 1 "$T/whole") \
+    <(awk 'NR > 1 { s += $7 } END { printf "%.17g\n", s }' "$T/classes") |
+    awk '{ print $4 / $2 }')" 0.999999999 1.000000001
+  "$B"/analyze mixture --profile 7 "$T/a" > "$T/slabs" 2> "$T/err"
+  within "sum of the slabs, sides '$sides'" "$(paste <(tail -n 1 "$T/whole") \
+    <(awk 'NR > 1 && NF { s += $4 / 7 } END { printf "%.17g\n", s }' "$T/slabs") |
+    awk '{ print $4 / $2 }')" 0.999999999 1.000000001
+done
+
 # Sieves: diameters, in any order, with names or without; percent too.
 printf '# sand\nmesh share\n0.4,0\n0.2 60\n0.1;40\n' > "$T/down.txt"
 printf '0.1\t0.4\n0.2\t0.6\n0.4\t0\n' > "$T/up.txt"

@@ -4,7 +4,7 @@
 # what others expect of hard spheres. Both panels have the same range of
 # fractions.
 #   gnuplot -c plots/mixtures/mixtures.gp MIXTURES OUT
-# MIXTURES: columns kind, value, deviation, inner share, union, interval, rods,
+# MIXTURES: columns kind, value, deviation, share, union, interval, rods,
 # spread.
 set loadpath system("dirname '".ARG0."'")."/.."
 height = 1000
@@ -25,9 +25,9 @@ set xrange [0.3:1]
 unset key
 plot ARG1 using (of("two", "value")):(of("two", "rods")) with linespoints \
     lw line pt 6 ps symbol lc rgb blue, \
-  ARG1 using (of("two", "inner share")):(of("two", "union")):"interval" \
+  ARG1 using (of("two", "share")):(of("two", "union")):"interval" \
     with yerrorbars pt 7 ps symbol lw thin lc rgb vermillion, \
-  ARG1 using (of("two", "inner share")):(of("two", "union")) with points \
+  ARG1 using (of("two", "share")):(of("two", "union")) with points \
     pt 7 ps symbol lc rgb vermillion
 set tmargin at screen 0.565
 set bmargin at screen 0.22
@@ -42,7 +42,7 @@ plot ARG1 using (of("lognormal", "deviation")):(of("lognormal", "rods")) \
     title "Desmond, Weeks 2014", \
   ARG1 using (of("lognormal", "deviation")):(of("lognormal", "union")): \
     "interval" with yerrorbars pt 7 ps symbol lw thin lc rgb vermillion \
-    title "settle, inner part; 95 % interval of several beds", \
+    title "settle; 95 % interval where there are several beds", \
   ARG1 using (of("lognormal", "deviation")):(of("lognormal", "union")) \
     with points pt 7 ps symbol lc rgb vermillion notitle
 unset multiplot

@@ -2,13 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Solid fractions of mixtures beside what others expect of their sizes:
 # plots/mixtures/table.sh BED..., named .../KIND-VALUE-SEED.bed, those of a KIND
-# and VALUE one after the other. The union is that of the inner part: from 0.2 to
-# 0.8 of the base and from 0.2 to 0.75 of the height that the spheres would have
-# at a fraction of 0.65. Columns: kind, value, deviation (of the radii by their
-# mean), beds, inner share (of the large of two sizes in the inner part: small
-# ones fill it at the walls), union, interval (95 %, Student's t; nan for one
-# bed), rods, spread (see analyze mixture --help; nan for two sizes, which it is
-# not made for).
+# and VALUE one after the other. The union is taken from 0.2 to 0.75 of the height
+# that the spheres would have at a fraction of 0.65. Columns: kind, value,
+# deviation (of the radii by their mean), beds, share (of the large of two sizes
+# there), union, interval (95 %, Student's t; nan for one bed), rods, spread (see
+# analyze mixture --help; nan for two sizes, which it is not made for).
 # B is the directory of the programs.
 set -eu
 B=${B:-build}
@@ -19,7 +17,7 @@ for bed in "$@"; do
     /^[0-9]/ { v += 4 / 3 * atan2(0, -1) * $5 ^ 3 }
     END {
       h = v / (b * b * 0.65)
-      print 0.2 * b "," 0.8 * b "," 0.2 * b "," 0.8 * b "," 0.2 * h "," 0.75 * h
+      print "0," b ",0," b "," 0.2 * h "," 0.75 * h
     }' "$bed")
   union=$("$B/analyze" --box "$box" "$bed" | awk 'END { print $3 }')
   share=$("$B/analyze" mixture --classes 0.05 --box "$box" "$bed" |
@@ -45,7 +43,7 @@ done | awk -F '\t' -v OFS='\t' '
     n = sum = squares = share = deviation = rods = spread = 0
   }
   BEGIN {
-    print "kind", "value", "deviation", "beds", "inner share", "union",
+    print "kind", "value", "deviation", "beds", "share", "union",
       "interval", "rods", "spread"
   }
   $1 != last { flush() }
