@@ -11,8 +11,8 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 #include "check.h"
+#include "limit.h"
 #include "dynamics/dynamics.h"
 #include "oracle.h"
 #include "sample.h"
@@ -1313,7 +1313,7 @@ static void test_kernels(gsl_rng *rng) {
 }
 
 int main(void) {
-  alarm(30); /* a loop without end is a failure too */
+  limit_cpu(600); /* a loop without end is a failure too */
   gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
   test_kernels(rng);
   CHECK(slow_slips > 1000 && fast_slips > 1000 && deep_overlaps > 1000 &&

@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
-#include <unistd.h>
 #include "check.h"
+#include "limit.h"
 #include "geometry/neighbors.h"
 #include "sample.h"
 
@@ -402,7 +402,7 @@ static void test_errors(gsl_rng *rng) {
 }
 
 int main(void) {
-  alarm(30); /* a loop without end is a failure too */
+  limit_cpu(300); /* a loop without end is a failure too */
   gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
   test_clouds(rng);
   test_mixtures(rng);
