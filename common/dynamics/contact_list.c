@@ -53,18 +53,18 @@ void contact_list_free(struct contact_list *l) {
   free(l);
 }
 
+/* The last two only tell spheres of one height apart, however they are listed.
+ */
 struct place {
-  double cell[2], z;
+  double key[5]; /* cell, z, x, y */
   size_t sphere;
 };
 
 static int compare_places(const void *a, const void *b) {
   const struct place *p = a, *q = b;
-  for (int k = 0; k < 2; k++)
-    if (p->cell[k] != q->cell[k])
-      return p->cell[k] < q->cell[k] ? -1 : 1;
-  if (p->z != q->z)
-    return p->z < q->z ? -1 : 1;
+  for (int k = 0; k < 5; k++)
+    if (p->key[k] != q->key[k])
+      return p->key[k] < q->key[k] ? -1 : 1;
   return (p->sphere > q->sphere) - (p->sphere < q->sphere);
 }
 
@@ -81,8 +81,8 @@ static int find_order(struct contact_list *l, const struct bed *b,
     return GSL_ENOMEM;
   for (size_t i = 0; i < b->n; i++) {
     const double *x = b->x + 3 * i;
-    places[i] =
-        (struct place){{floor(x[0] / edge), floor(x[1] / edge)}, x[2], i};
+    places[i] = (struct place){
+        {floor(x[0] / edge), floor(x[1] / edge), x[2], x[0], x[1]}, i};
   }
   qsort(places, b->n, sizeof *places, compare_places);
   for (size_t i = 0; i < b->n; i++)
