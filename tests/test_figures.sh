@@ -17,7 +17,7 @@ declare -A makes=(
   [fig-gr]='gr.svg' [structure]='structure.md:2'
   [softness]='hardness.svg budget.svg softness.md:8 softness-limits.md:2'
   [table-radius]='table-radius.md:8' [fig-walls]='walls.svg walls.md:10'
-  [fig-handover]='handover.svg'
+  [fig-handover]='handover.svg' [fig-friction]='friction.svg'
   [fig-mixtures]='mixtures.svg mixtures.md:4'
   [precision]='precision-bounce-150-time-evaluations.svg
     precision-rolling-steps-velocity-step.svg precision-contrast.svg
@@ -43,7 +43,7 @@ declare -A makes=(
 # Targets that make no figure; bench-clean comes last.
 others=' all check clients fuzz deps demo install uninstall clean help readme'
 others+=' docs-figures bench-clean'
-others+=' lammps sanitize tidy check-long check-quick deps-developer man '
+others+=' lammps torture sanitize tidy check-long check-quick deps-developer man '
 
 targets=()
 while read -r target _; do

@@ -29,7 +29,7 @@ int rows_alloc(struct rows **out, const struct scene *s, bool equal) {
   l->threads = 1;
   l->part = &r->part;
   l->incoming = r->incoming;
-  r->kernel = kernel_select();
+  r->kernel = kernel_select(NULL);
   if (!l->walls) {
     rows_free(r);
     return GSL_ENOMEM;
