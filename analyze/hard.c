@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* hard: the fraction that beds of soft contacts would have with hard ones. */
+#include <assert.h>
 #include <float.h>
 #include <stdlib.h>
 #include <string.h>
@@ -70,6 +71,7 @@ static void take(struct beds *s, struct tabulation *t,
   const struct observer told = frames_observer(&part);
   frame_check(f, b, volume_union_told(b->n, b->x, b->r, box, &told, &united));
   struct scene scene = frame_scene(f, b);
+  assert(s->kr && s->count);
   s->kr[s->count - 1] = scene.law.kappa * radius;
   s->share[s->count - 1] = united / box_volume(box);
   s->spheres = spheres;
@@ -78,6 +80,7 @@ static void take(struct beds *s, struct tabulation *t,
 
 static void print(struct tabulation *t, const struct beds *s,
                   const struct hard_limit *h) {
+  assert(s->kr && s->count);
   double softest = s->kr[0], hardest = s->kr[0];
   for (size_t k = 1; k < s->count; k++) {
     softest = GSL_MIN(softest, s->kr[k]);

@@ -14,6 +14,11 @@ flags='-std=c11 -Icommon -fopenmp'
 cat >"$T/right" <<'END'
 cppcheck invalidPointerCast analyze/write_voxels.c: one buffer, of either type
 cppcheck IOWithoutPositioning common/platform/store.c: a stream has one direction
+clang-tidy clang-analyzer-unix.Malloc settle/checkpoint.c: a store that saves fills nothing
+fanalyzer -Wanalyzer-malloc-leak settle/checkpoint.c: a store that saves fills nothing
+fanalyzer -Wanalyzer-malloc-leak common/program/files.c: litter keeps the name of a folder
+clang-tidy clang-analyzer-core.NullDereference analyze/hard.c: that status is of two beds or more
+fanalyzer -Wanalyzer-null-dereference analyze/hard.c: that status is of two beds or more
 cppcheck legacyUninitvar common/dynamics/rates.c: an array that a call fills
 cppcheck uninitvar analyze/measure.c: an array that a call fills
 cppcheck uninitvar common/program/unpack.c: is filled up to its count

@@ -220,7 +220,7 @@ INLINE void load_four_walls(const struct contact_list *list, const double *y,
   const double r = list->radius[0];
   vec4 u[4], w[4], n[4], d[4];
   for (size_t l = 0; l < 4; l++) {
-    const double *p = y + list->wall_row[k + l] * ROW_SPIN;
+    const double *p = y + (size_t)list->wall_row[k + l] * ROW_SPIN;
     const struct wall *wall = &list->walls[list->wall_id[k + l]];
     const double *at = wall->point, *normal = wall->normal;
     u[l] = vec4_load(p);
