@@ -13,7 +13,7 @@ outcomes = "settled denser looser jitter gave_up tunnelled stopped"
 letters = "· + − J G W X"
 titles = "'· settled' '+ denser bed' '− looser bed' 'J jitter' 'G gave up' ". \
   "'W through a wall' 'X blew up'"
-colours = "#CDE8DD ".orange." #F5DFA8 ".purple." ".sky." ".blue." ".vermillion
+colours = "#CDE8DD ".orange." #F5DFA8 ".purple." ".sky." #B5B5B5 ".vermillion
 # four in a row, of which the first has three
 panels = "basic-merson basic-merson-free basic-merson-short - basic-rkc ". \
   "basic-rkc-free basic-multirate basic-verlet rotation-merson rotation-rkc ". \
