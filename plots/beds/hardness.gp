@@ -11,7 +11,7 @@ call "style.gp" "beds/hardness.gp GROUPS LIMITS OUT" ARG3 ARG1 ARG2
 
 sets = system("awk -F '\t' 'NR > 1 { gsub(/ /, \"_\", $1); print $1 }' '".ARG2."'")
 count = words(sets)
-title_of(k) = system(sprintf("echo '%s' | sed 's/_/ /g; s/v min/v_{min}/; s/friction 0.2, //'", \
+title_of(k) = system(sprintf("echo '%s' | sed 's/_/ /g; s/v min/v_{min}/; s/friction 0.2, //; s/, .*, bulk/, bulk/'", \
   word(sets, k)))
 in_set(k, y) = system_name(strcol("set")) eq word(sets, k) ? column(y) : NaN
 # the name with its blanks as in the list

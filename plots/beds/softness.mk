@@ -48,16 +48,18 @@ BUDGET_RUNS := \
   $(SOFT_MANY:%=$(SOFT)/tol-2e-3/seed-%.tsv) \
   $(foreach t,$(SOFT_TIMES),\
     $(SOFT_SEEDS:%=$(SOFT)/model-basic/time-$(t)/seed-%.tsv))
-# Far from walls: 8 diameters deep, 10 wide, of which 6 by 6 by 4 are measured;
-# without friction.
-SOFT_BULK := --base 2,2 --count 1600 $(if $(QUICK),--time 1 --count 200)
+# Without side walls: 300 spheres on 5 by 5 diameters with periodic sides, of which
+# 6 diameters of height are measured; friction 0.174 is a Coulomb coefficient of 0.3
+# at rest.
+SOFT_BULK := --base 1,1 --periodic xy --count $(if $(QUICK),100 --time 2,300)
+SOFT_BULK_BOX := --box 0,1,0,1,0.4,$(if $(QUICK),0.6,1.6)
 SOFT_BULK_OVERLAPS := 0.0245 0.01225 $(if $(QUICK),,0.006125)
-BULK_RUNS := $(foreach o,$(SOFT_BULK_OVERLAPS),\
-  $(SOFT)/bulk/model-basic/overlap-$(o)/seed-1.tsv \
-  $(SOFT)/bulk/model-basic/overlap-$(o)/seed-2.tsv)
+BULK_RUNS := $(foreach o,$(SOFT_BULK_OVERLAPS),$(foreach s,$(SOFT_FEW),\
+  $(SOFT)/bulk/model-basic/overlap-$(o)/seed-$(s).tsv \
+  $(SOFT)/bulk/friction-0.174/vmin-1.25e-3/overlap-$(o)/seed-$(s).tsv))
 $(SOFT)/bulk/%.tsv: | $(B)/settle $(B)/analyze
 	@mkdir -p $(@D)
-	B=$(B) BOX='--box 0.4,1.6,0.4,1.6,0.4,1.2' plots/beds/soft.sh $* $(SOFT_BULK) > $@
+	B=$(B) BOX='$(SOFT_BULK_BOX)' plots/beds/soft.sh $* $(SOFT_BULK) > $@
 SOFT_ALL := $(sort $(SOFT_RUNS) $(BUDGET_RUNS) $(BULK_RUNS))
 
 $(SOFT)/%.tsv: | $(B)/settle $(B)/analyze
