@@ -125,6 +125,9 @@ static void write_run(FILE *out, const struct settings *set,
 
 void export_lammps(const char *folder, const struct settings *s,
                    const struct bed *b, const struct bed_header *header) {
+  const double *period = s->scene.period;
+  if (period[0] > 0 || period[1] > 0 || period[2] > 0)
+    die(EXIT_USAGE, "--export-lammps: not with --periodic");
   for (size_t i = 0; i < b->n; i++)
     if (bed_is_fixed(b, i))
       die(EXIT_USAGE, "--export-lammps: not with spheres that are fixed");

@@ -119,6 +119,9 @@ obstacles=$?
 "$B/settle" --travel 0 --export-lammps "$T/none" 2>>"$T/err"
 check 'no limit of travel' test $? = 2 -a "$(grep -c 'needs a limit' \
   "$T/err")" = 1
+"$B/settle" --periodic x --export-lammps "$T/none" 2>"$T/periodic"
+check 'periodic' test $? = 2 -a "$(grep -c 'not with --periodic' \
+  "$T/periodic")" = 1
 check 'obstacles' test $obstacles = 2 -a "$(grep -c 'not with spheres' \
   "$T/err")" = 1
 check_done
