@@ -104,6 +104,7 @@ int verb_gr(int argc, char **argv) {
   tabulation_open(&t, &input, mean, argc, argv, operand);
   while (tabulation_next(&t)) {
     tabulation_see(&t, &set.box);
+    frame_warn_open(&t.frames);
     print_frame(&t.table, &t.frames, &set, &t.bed);
   }
   return tabulation_close(&t);

@@ -264,6 +264,12 @@ void frame_warn_rewritten(const struct frames *f) {
          f->name, r);
 }
 
+void frame_warn_open(const struct frames *f) {
+  if (f->first && bed_header_get(frames_header(f), "periodic"))
+    warn("%s: periodic sides are taken as open, each sphere is there once",
+         f->name);
+}
+
 void frame_check(const struct frames *f, const struct bed *b, int status) {
   switch (status) {
   case GSL_SUCCESS:

@@ -71,6 +71,9 @@ void box_watch_see(struct box_watch *w, const struct frames *f,
    and much wider than what the spheres take up. */
 void box_watch_end(const struct box_watch *w);
 
+/* Says once for each bed that a verb takes its periodic sides as open. */
+void frame_warn_open(const struct frames *f);
+
 /* Exits with EXIT_INPUT and one line: the input, the frame's time and why it
    cannot be measured. */
 _Noreturn void frame_refuse(const struct frames *f, const struct bed *b,

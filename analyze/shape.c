@@ -104,6 +104,9 @@ static void add_walls(struct shape *s, const struct shape_options *o) {
   const double thickness =
       o->thickness > 0 ? o->thickness : least_radius(s->source);
   bool any = false;
+  if (bed_header_get(s->header, "cylinder"))
+    frame_refuse(s->frames, s->source,
+                 "--walls: the header has a cylinder, expected planes only");
   for (int k = 0; k < 6; k++) {
     if (!s->walled[k])
       continue;

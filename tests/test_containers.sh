@@ -143,6 +143,11 @@ within 'profile across periodic sides' "$(paste "$T/a.tsv" "$T/b.tsv" | awk '
 check 'export states the fraction of the cell' grep -q \
   "fraction $("$B/analyze" "$T/periodic.bed" | awk 'NR == 2 {
     print substr($3, 1, 10) }')" "$T/err"
+for verb in gr order; do
+  "$B/analyze" $verb "$T/periodic.bed" > "$T/out" 2> "$T/err"
+  check "$verb says that sides are open" grep -q 'taken as open' "$T/err"
+done
+refused 3 'the header has a cylinder' "$B/analyze" export --format raw --walls "$T/rest.bed"
 # the square inscribed in a tube
 half=$(awk 'BEGIN { printf "%.17g", 0.35 * sqrt(0.5) }')
 "$B/analyze" "$T/rest.bed" > "$T/a.tsv"
