@@ -15,6 +15,7 @@ SHOWN := bench budget fig4.3 friction gr growth handover hardness \
   stability-map stability-regions stability-steps stability-tunnel \
   stability-vibration stability-wrong-bed walls
 SHOWN_AS := \
+  mixtures-fraction=mixtures \
   precision-bounce=precision-bounce-150-inelastic-time-evaluations \
   precision-rolling=precision-rolling-steps-velocity-step \
   precision-toda=precision-toda-6-long-eigenvalue-evaluations \

@@ -42,7 +42,8 @@ plot ARG1 using (of("lognormal", "deviation")):(of("lognormal", "rods")) \
     title "Desmond, Weeks 2014", \
   ARG1 using (of("lognormal", "deviation")):(of("lognormal", "union")): \
     "interval" with yerrorbars pt 7 ps symbol lw thin lc rgb vermillion \
-    title "settle; 95 % interval where there are several beds", \
+    notitle, \
   ARG1 using (of("lognormal", "deviation")):(of("lognormal", "union")) \
-    with points pt 7 ps symbol lc rgb vermillion notitle
+    with points pt 7 ps symbol lc rgb vermillion \
+    title "settle; 95 % interval where there are several beds"
 unset multiplot
