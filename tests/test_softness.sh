@@ -79,7 +79,7 @@ refuse 'without friction' --creep 0.1 --friction 0
 refuse '--time above 0' --creep 0.1 --time 0
 refuse 'overlap' --overlap 0
 
-# A tolerance finer than softness lets see is said once; as fine contacts are not
+# A tolerance finer than softness lets see is said once
 "$B/settle" --quiet --tol 1e-5 --time 0.05 >"$T/out" 2>"$T/err"
 check 'balance: said' grep -q 'larger by some 0.08 (kappa r = 15)' "$T/err"
 check 'balance: once' test "$(wc -l <"$T/err")" = 1
@@ -96,8 +96,8 @@ pearls() { # KAPPA COUNT [KEY=VALUE]
     print "# format=bed-1\n# kappa=" kappa "\n# radius=0.1\n# wall=0 0 0 0 0 -1"
     print "# " key "\nx\ty\tz\tr"
     for (i = 0; i < n; i++) # the last one may be cut in half
-      printf("%.17g\t%.17g\t%.17g\t0.1\n", (i + 0.5 >= n ? 1 : 0.1 + 0.2 * (i % 4)),
-        0.1 + 0.2 * (int(i / 4) % 4), 0.1 + 0.2 * int(i / 16))
+      printf("%.17g\t%.17g\t%.17g\t0.1\n",
+        (i + 0.5 >= n ? 1 : 0.1 + 0.2 * (i % 4)), 0.1 + 0.2 * (int(i / 4) % 4), 0.1 + 0.2 * int(i / 16))
     print "# status=ok" }'
 }
 pearls 300 20 >"$T/30"
@@ -107,7 +107,8 @@ hard() {
   "$B/analyze" hard --box 0,1,0,1,0,1 "$@" >"$T/out" 2>"$T/err"
 }
 column() {
-  awk -F '\t' -v want="$1" 'NR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
+  awk -F '\t' -v want="$1" '
+    NR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
     { print $at[want] }' "$T/out"
 }
 near() { # NAME GOT WANT TOLERANCE

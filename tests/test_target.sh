@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# settle --target-fraction: the friction that it finds, the bed that it makes, and
-# what is not reachable.
+# settle --target-fraction: the friction that it finds, the bed that it makes,
+# and what is not reachable.
 . tests/harness.sh
 
 bed=(--count 60 --base 0.6,0.6 --time 2)
@@ -52,7 +52,9 @@ for x in 0.9 0.3; do
   "$B/settle" --quiet "${bed[@]}" --target-fraction $x >"$T/out" 2>"$T/err"
   check "$x: exit status" test $? = 5
   check "$x: no bed" test ! -s "$T/out"
-  check "$x: says what is" grep -Eq "not reachable with this softness and box: 0\.[0-9]{3} to 0\.[0-9]{3}$" "$T/err"
+  check "$x: says what is" grep -Eq \
+    "not reachable with this softness and box: 0\.[0-9]{3} to 0\.[0-9]{3}$" \
+    "$T/err"
 done
 read -r a b < <(sed 's/.*box: \(.*\) to \(.*\)$/\1 \2/' "$T/err")
 within 'from the loosest' "$a" "$(awk -v x="$least" 'BEGIN { print x - 0.04 }')" \
