@@ -143,6 +143,10 @@ INSTANTS ?= 200
 torture: all ## kill runs and go on, let each call fail, INSTANTS=200 (an hour)
 	B=$(B) tests/torture.sh $(INSTANTS)
 
+MUTANTS ?= 300
+mutants: all ## break the sources at MUTANTS=300 places, and see the tests notice
+	tests/mutants.sh $(MUTANTS)
+
 fuzz: $(B)/fuzz/readers ## feed random files to the readers, FUZZ_SECONDS=60 (clang)
 	@mkdir -p $(B)/fuzz/corpus
 	$(B)/fuzz/readers -max_total_time=$(FUZZ_SECONDS) -timeout=10 -verbosity=0 -print_final_stats=1 \
@@ -229,4 +233,4 @@ help: ## this list
 
 include plots/rules.mk plots/captions.mk settle/lammps/lammps.mk
 
-.PHONY: all check check-quick clients sanitize tidy torture fuzz deps deps-developer demo man install uninstall clean help
+.PHONY: all check check-quick clients sanitize tidy torture mutants fuzz deps deps-developer demo man install uninstall clean help

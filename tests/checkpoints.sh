@@ -1,3 +1,4 @@
+# shellcheck shell=bash disable=SC2034 # variables of the script that sources it
 # SPDX-License-Identifier: GPL-3.0-or-later
 # What tests of checkpoints share: runs of settle with output, log, statistics and
 # checkpoint in $D. After harness.sh.
@@ -29,7 +30,7 @@ resume() { # ARGUMENT...
 }
 
 end() { # its status
-  wait $pid 2>/dev/null
+  wait "$pid" 2>/dev/null
   status=$?
 }
 
@@ -37,7 +38,7 @@ end() { # its status
 wait_for_checkpoints() { # NUMBER: at least this number of new ones
   local seen=$before now made=0 k
   for ((k = 0; k < 2000 && made < $1; k++)); do
-    kill -0 $pid 2>/dev/null || return 0
+    kill -0 "$pid" 2>/dev/null || return 0
     now=$(stat -c %i "$D/check" 2>/dev/null)
     [[ $now == "$seen" ]] || made=$((made + 1))
     seen=$now

@@ -4,7 +4,7 @@
 # had not been stopped. tests/torture.sh is the long form.
 [[ ! -w /dev/shm ]] || export TMPDIR=/dev/shm # where fsync is fast
 . tests/harness.sh
-. tests/checkpoints.sh
+. tests/checkpoints.sh # resume may have arguments, or none
 
 D=$T/d
 mkdir "$D"
@@ -14,7 +14,7 @@ same_after_kills() { # NAME ARGUMENT...: killed three times
   local name=$1 k
   shift
   unbroken "$@"
-  rm -f "$D"/*
+  rm -f "${D:?}"/*
   begin "$@" --every 0.002
   for k in 1 2 3; do
     wait_for_checkpoints 2
@@ -33,7 +33,7 @@ same_after_kills() { # NAME ARGUMENT...: killed three times
   check "$name: nothing else is left" test "$(ls "$D" | tr '\n' ' ')" = \
     'check check.old log out stats '
 }
-small=(--count 60 --base 0.5,0.5 --frames 6)
+small=(--count 60 --base '0.5,0.5' --frames 6)
 same_after_kills merson "${small[@]}" --method merson --model basic --time 1
 same_after_kills dopri5 "${small[@]}" --method dopri5 --model friction \
   --time 0.7 --restitution 1
@@ -51,7 +51,7 @@ same_after_kills 'sizes in the order of space' --count 1100 --base 2,2 \
 check 'they were in the middle' test "$(sort -u "$T/times" | wc -l)" -gt 8
 # another number of threads
 unbroken "${small[@]}" --time 1
-rm -f "$D"/*
+rm -f "${D:?}"/*
 begin "${small[@]}" --time 1 --every 0.002 --threads 2
 wait_for_checkpoints 2
 kill -s KILL $pid
@@ -62,7 +62,7 @@ check 'other threads: output' cmp -s "$T/whole/out" "$D/out"
 # a scene that is gone by then, and the checkpoint before the last one
 "$B/settle" --quiet --count 30 --base 0.4,0.4 --time 0.3 >"$T/scene"
 unbroken --scene "$T/scene" --time 1
-rm -f "$D"/*
+rm -f "${D:?}"/*
 begin --scene "$T/scene" --time 1 --every 0.002
 wait_for_checkpoints 2
 kill -s KILL $pid
@@ -79,7 +79,7 @@ check 'it has ended: the same again' cmp -s "$T/whole/out" "$D/out"
 # --- signals ------------------------------------------------------------------
 unbroken "${small[@]}" --time 1
 for signal in INT TERM HUP XCPU; do
-  rm -f "$D"/*
+  rm -f "${D:?}"/*
   begin "${small[@]}" --time 1 --every 0.002
   wait_for_checkpoints 2
   kill -s $signal $pid
@@ -96,10 +96,10 @@ for signal in INT TERM HUP XCPU; do
   check "$signal: and log" cmp -s "$T/whole/log" "$D/log"
 done
 # Two at once: it ends at once, and what the checkpoint needs stays.
-rm -f "$D"/*
+rm -f "${D:?}"/*
 begin "${small[@]}" --time 1 --every 0.002
 wait_for_checkpoints 2
-kill -s STOP $pid
+kill -s STOP "$pid"
 kill -s INT $pid
 kill -s TERM $pid
 kill -s CONT $pid
@@ -109,7 +109,7 @@ resume
 end
 check 'two signals: goes on to the same bed' cmp -s "$T/whole/out" "$D/out"
 # USR1 asks for progress
-rm -f "$D"/*
+rm -f "${D:?}"/*
 begin "${small[@]}" --time 1000 --every 1000
 wait_for_checkpoints 1
 for ((k = 0; k < 500; k++)); do
@@ -133,7 +133,7 @@ refused() { # NAME STATUS PATTERN ARGUMENT...
 one_line() { # PATTERN
   [[ $(wc -l <"$T/err") == 1 && ! -s $T/stdout ]] && grep -Eq -e "$1" "$T/err"
 }
-rm -rf "$D"/* "$T/done"
+rm -rf "${D:?}"/* "$T/done"
 begin "${small[@]}" --time 1 --every 0.002
 wait_for_checkpoints 2
 kill -s INT $pid
@@ -195,7 +195,7 @@ refused 'the output is gone' 3 'out: expected to begin with the [0-9]+ bytes' \
   --resume "$D/check"
 check 'nothing is lost by that' cmp -s "$T/done/check" "$D/check"
 # while the run is on
-rm -f "$D"/*
+rm -f "${D:?}"/*
 begin "${small[@]}" --time 1000 --every 1000
 wait_for_checkpoints 1
 refused 'is on' 2 'is being written by another run' --resume "$D/check"
@@ -211,7 +211,7 @@ fi
 # a kernel that was asked for is asked for again
 unbroken "${small[@]}" --time 1
 kernel=$("$B/settle" --help | sed -n '/--kernel/{n;s/.*one of \([^ ]*\).*/\1/p}')
-rm -f "$D"/*
+rm -f "${D:?}"/*
 begin "${small[@]}" --time 1 --every 0.002 --kernel "${kernel:-native}"
 wait_for_checkpoints 2
 kill -s KILL $pid
@@ -223,7 +223,7 @@ check "kernel $kernel: that of the run" test \
   "$(sed -n 's/^kernel\t//p' "$D/stats")" = "${kernel:-native}"
 
 # --- a checkpoint that cannot be written --------------------------------------
-rm -f "$D"/*
+rm -f "${D:?}"/*
 (ulimit -f 8; exec timeout 20 "$B/settle" --quiet "${small[@]}" --time 1 \
   --output "$D/out" --checkpoint "$D/check" 2>"$T/err")
 status=$?
@@ -236,7 +236,7 @@ for ((k = 0; k < 1000; k++)); do
   [[ -e $D/in/check.old ]] && break
   sleep 0.01
 done
-kill -s STOP $pid
+kill -s STOP "$pid"
 mv "$D/in" "$D/away"
 kill -s CONT $pid
 end

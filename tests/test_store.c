@@ -60,9 +60,9 @@ static const struct thing example = {
     .x = 0x1.fffffffffffffp-1022,
     .row = {-0.0, INFINITY, 0x1.23456789abcdep3},
     .n = SIZE_MAX,
-    .rows = {0, 1},
+    .rows = {5, 7},
     .flag = true,
-    .flags = {false, true, false},
+    .flags = {true, false, true},
     .text = (char[]){"a\nb"},
     .plain = {7, 0.1}};
 

@@ -7,7 +7,7 @@
 #   tests/torture.sh [INSTANTS [SEED]]
 [[ ! -w /dev/shm ]] || export TMPDIR=/dev/shm # where fsync is fast
 . tests/harness.sh
-. tests/checkpoints.sh
+. tests/checkpoints.sh # resume may have arguments, or none
 instants=${1:-200}
 RANDOM=${2:-1}
 D=$T/d
@@ -40,7 +40,7 @@ ended() { # NAME SIGNALS ARGUMENT...: as often as there are instants
   run=("$@")
   unbroken "$@"
   while ((tried < instants)); do
-    rm -f "$D"/*
+    rm -f "${D:?}"/*
     begin "$@" --every 0.01
     while :; do
       wait_for_checkpoints 2 # so that there is some progress each time
@@ -66,7 +66,7 @@ ended() { # NAME SIGNALS ARGUMENT...: as often as there are instants
   done
   row "$name"
 }
-small=(--count 100 --base 0.7,0.7 --frames 9)
+small=(--count 100 --base '0.7,0.7' --frames 9)
 for model in basic friction rotation; do
   ended "KILL, $model, rkc" KILL "${small[@]}" --model $model --method rkc --time 2
 done
@@ -87,7 +87,7 @@ else
     run=("$@")
     unbroken "$@"
     for ((k = 1; k <= most; k++)); do
-      rm -f "$D"/* "$T/hit"
+      rm -f "${D:?}"/* "$T/hit"
       FAULT=$call:$k FAULT_DONE=$T/hit LD_PRELOAD=$T/faults.so timeout 60 \
         "$B/settle" --quiet --output "$D/out" --log "$D/log" \
         --checkpoint "$D/check" "$@" 2>"$T/err"
@@ -112,7 +112,7 @@ else
     done
     row "$call fails"
   }
-  short=(--count 30 --base 0.4,0.4 --time 0.2 --frames 3 --method rkc)
+  short=(--count 30 --base '0.4,0.4' --time 0.2 --frames 3 --method rkc)
   failing fsync 60 "${short[@]}" --every 0.001
   failing rename 60 "${short[@]}" --every 0.001
   failing link 60 "${short[@]}" --every 0.001
@@ -125,11 +125,11 @@ fi
 if ! command -v prlimit >/dev/null; then
   echo 'skipped: files that may not grow, which need prlimit (util-linux)'
 else
-  short=(--count 30 --base 0.4,0.4 --time 0.5 --frames 9 --every 0.001)
+  short=(--count 30 --base '0.4,0.4' --time 0.5 --frames 9 --every 0.001)
   run=("${short[@]}")
   unbroken "${short[@]}"
   for ((size = 0; size < 60000; size += 500 + RANDOM % 500)); do
-    rm -f "$D"/*
+    rm -f "${D:?}"/*
     prlimit --fsize=$size timeout 60 "$B/settle" --quiet --output "$D/out" \
       --log "$D/log" --checkpoint "$D/check" "${short[@]}" 2>"$T/err"
     status=$?

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Initial states. */
+/* Initial states. Tested in tests/test_sizes.c and tests/test_rest.c. */
 #ifndef FILL_H
 #define FILL_H
 
