@@ -96,8 +96,8 @@
    .parameter = true, .each = scene_wall_option, .context = &(s)},             \
   {.name = "cylinder", .type = OPTION_LIST, .least = 7, .most = 7,             \
    .unit = "px,py,pz,ax,ay,az,R with an axis and R of positive length",        \
-   .help = "inside of a cylinder by a point on its axis and its direction, "   \
-           "repeatable; replaces walls of the box along it",                   \
+   .help = "inside of a cylinder, repeatable; replaces the box's walls along " \
+           "its axis",                                                         \
    .parameter = true, .each = scene_cylinder_option, .context = &(s)}
 
 /* clang-format on */
