@@ -94,7 +94,8 @@ static void bounds(const struct solid *s, double box[6]) {
   }
 }
 
-/* The volume by a number of cells; checks the surface. euler: NULL if unknown. */
+/* The volume by a number of cells; checks the surface. euler: NULL if unknown.
+ */
 static double surface_case(const struct solid *s, const double *clip,
                            size_t cells, const long *euler) {
   double box[6];

@@ -33,7 +33,8 @@ struct dynamics_options {
 /* Names of kernels, by instruction set, and NULL: the same one rounds in the
    same way. */
 extern const char *const *const dynamics_kernels;
-/* The best of them here. Libraries round by it too, whatever kernel is taken. */
+/* The best of them here. Libraries round by it too, whatever kernel is taken.
+ */
 const char *dynamics_machine(void);
 
 struct dynamics_counts {
