@@ -275,6 +275,37 @@ static void test_integrators(void) {
   }
 }
 
+/* --- no memory within a step -----------------------------------------------*/
+
+static int out_of_memory(double t, const double y[], double dydt[],
+                         void *params) {
+  size_t *left = params;
+  return (*left)-- ? pulses(t, y, dydt, NULL) : GSL_EFAULT;
+}
+
+/* It ends there, wherever in the step, and does not go on by another one. */
+static void test_memory(const char *method) {
+  static const double scale[2] = {0.01, 1}, start[2] = {1, 0};
+  for (size_t calls = 1; calls < 12; calls++) {
+    size_t left = calls;
+    struct integrator *it;
+    const struct integrate_options o = {
+        .method = method, .control = "standard", .tol = 1e-3, .hinit = 0.01};
+    CHECK(integrate_alloc(&it, &o,
+                          &(struct integrate_problem){
+                              .system = {.function = out_of_memory,
+                                         .dimension = 2,
+                                         .params = &left},
+                              .scale = scale},
+                          0, start) == GSL_SUCCESS);
+    int status = GSL_SUCCESS;
+    for (int k = 0; k < 12 && status == GSL_SUCCESS; k++)
+      status = integrate_step(it);
+    CHECK(status == GSL_ENOMEM);
+    integrate_free(it);
+  }
+}
+
 int main(void) {
   gsl_set_error_handler_off();
   test_checksum();
@@ -283,5 +314,8 @@ int main(void) {
   test_misfits();
   test_full();
   test_integrators();
+  test_memory("merson");
+  test_memory("rkf45");
+  test_memory("rkc");
   return check_done();
 }

@@ -81,16 +81,16 @@ if ! ${CC:-cc} -shared -fPIC -o "$T/faults.so" tests/faults.c -ldl 2>"$T/err"; t
   echo 'skipped: calls that fail, which need a compiler and a loader that preloads'
 else
   # Each call in turn: the run ends well, or says why and goes on where it was
-  failing() { # CALL MOST ARGUMENT...
-    local call=$1 most=$2 k
-    shift 2
+  failing() { # CALL MOST EVERY ARGUMENT...
+    local call=$1 most=$2 every=$3 k
+    shift 3
     run=("$@")
     unbroken "$@"
     for ((k = 1; k <= most; k++)); do
       rm -f "${D:?}"/* "$T/hit"
-      FAULT=$call:$k FAULT_DONE=$T/hit LD_PRELOAD=$T/faults.so timeout 60 \
-        "$B/settle" --quiet --output "$D/out" --log "$D/log" \
-        --checkpoint "$D/check" "$@" 2>"$T/err"
+      timeout 60 env FAULT="$call:$k" FAULT_DONE="$T/hit" \
+        LD_PRELOAD="$T/faults.so" "$B/settle" --quiet --output "$D/out" \
+        --log "$D/log" --checkpoint "$D/check" --every "$every" "$@" 2>"$T/err"
       status=$?
       [[ -e $T/hit ]] || break
       tried=$((tried + 1))
@@ -113,25 +113,26 @@ else
     row "$call fails"
   }
   short=(--count 30 --base '0.4,0.4' --time 0.2 --frames 3 --method rkc)
-  failing fsync 60 "${short[@]}" --every 0.001
-  failing rename 60 "${short[@]}" --every 0.001
-  failing link 60 "${short[@]}" --every 0.001
-  failing close 60 "${short[@]}" --every 0.001
-  failing malloc 2000 "${short[@]}" --every 1000
-  failing malloc 2000 --count 30 --base 0.4,0.4 --time 0.1 --every 1000
+  failing fsync 60 0.001 "${short[@]}"
+  failing rename 60 0.001 "${short[@]}"
+  failing link 60 0.001 "${short[@]}"
+  failing close 60 0.001 "${short[@]}"
+  failing malloc 2000 1000 "${short[@]}"
+  failing malloc 2000 1000 --count 30 --base 0.4,0.4 --time 0.1
 fi
 
 # --- files that may not grow: short writes and a full disk -------------------------
 if ! command -v prlimit >/dev/null; then
   echo 'skipped: files that may not grow, which need prlimit (util-linux)'
 else
-  short=(--count 30 --base '0.4,0.4' --time 0.5 --frames 9 --every 0.001)
+  short=(--count 30 --base '0.4,0.4' --time 0.5 --frames 9)
   run=("${short[@]}")
   unbroken "${short[@]}"
-  for ((size = 0; size < 60000; size += 500 + RANDOM % 500)); do
+  for ((size = 1000; size < 60000; size += 500 + RANDOM % 500)); do
     rm -f "${D:?}"/*
     prlimit --fsize=$size timeout 60 "$B/settle" --quiet --output "$D/out" \
-      --log "$D/log" --checkpoint "$D/check" "${short[@]}" 2>"$T/err"
+      --log "$D/log" --checkpoint "$D/check" --every 0.001 "${short[@]}" \
+      2>"$T/err"
     status=$?
     tried=$((tried + 1))
     if ((status != 0)); then

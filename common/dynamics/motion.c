@@ -5,13 +5,21 @@
 #include <string.h>
 #include <gsl/gsl_errno.h>
 
+/* GSL takes a step again at half the length after most errors, this one too;
+   GSL_EFAULT ends it (steppers/integrate.h). */
+static int end_without_memory(int status) {
+  return status == GSL_ENOMEM ? GSL_EFAULT : status;
+}
+
 static int rhs(double t, const double y[], double dydt[], void *params) {
-  return dynamics_rhs(t, y, dydt, ((struct motion *)params)->dynamics);
+  return end_without_memory(
+      dynamics_rhs(t, y, dydt, ((struct motion *)params)->dynamics));
 }
 
 static int stage(double t, const double y[], const struct stage *s,
                  double out[], void *params) {
-  return dynamics_stage(t, y, s, out, ((struct motion *)params)->dynamics);
+  return end_without_memory(
+      dynamics_stage(t, y, s, out, ((struct motion *)params)->dynamics));
 }
 
 static int jacobian(double t, const double y[], double *dfdy, double dfdt[],

@@ -202,7 +202,12 @@ static bool synchronize(FILE *stream) {
 }
 
 static void synchronize_directory(const char *path) {
-  char *directory = joined(path, directory_length(path), ".");
+  const size_t length = directory_length(path);
+  char *directory = malloc(length + 2);
+  if (!directory)
+    return; /* the file has its name, which is no reason to end */
+  memcpy(directory, path, length);
+  strcpy(directory + length, ".");
   const int fd = open(directory, O_RDONLY);
   if (fd >= 0) {
     fsync(fd); /* the file is whole with its old or its new name */
@@ -372,7 +377,12 @@ bool output_renew(struct output_file *f) {
 
 /* The file becomes the one before, if it is there. At no moment it is not. */
 static bool keep_old(const struct output_file *f) {
-  char *old = joined(f->target, strlen(f->target), ".old");
+  const size_t length = strlen(f->target);
+  char *old = malloc(length + sizeof ".old");
+  if (!old)
+    return false;
+  memcpy(old, f->target, length);
+  strcpy(old + length, ".old");
   const bool done = (unlink(old) == 0 || errno == ENOENT) &&
                     (link(f->target, old) == 0 || errno == ENOENT ||
                      rename(f->target, old) == 0 || errno == ENOENT);

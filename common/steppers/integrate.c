@@ -356,6 +356,8 @@ int integrate_step(struct integrator *it) {
       status = attempt(it, &h);
     }
   }
+  if (status == GSL_EFAULT)
+    return GSL_ENOMEM;
   if (status != GSL_SUCCESS)
     return status == GSL_EBADFUNC ? GSL_FAILURE : status;
   assert(it->now.t > start && it->now.t <= it->stop);

@@ -129,7 +129,9 @@ void integrate_free(struct integrator *it);
 
 /* One accepted step. GSL_SUCCESS, or an error after which time and state are
    those before the step: GSL_FAILURE when no step is short enough for the
-   control or a right-hand side that is not finite. */
+   control or a right-hand side that is not finite; GSL_ENOMEM, which a
+   right-hand side says by GSL_EFAULT: after GSL_ENOMEM GSL would go on with
+   another step. */
 int integrate_step(struct integrator *it);
 
 /* Makes the step that would pass t > integrate_time end there instead, so that

@@ -52,9 +52,11 @@ static int apply(void *vstate, size_t dim, double t, double h, double y[],
     if (status != GSL_SUCCESS)
       return status;
   }
-  return rkc_step_try(&s->step, &problem, t, h, y, yerr,
-                      dydt_in ? dydt_in : start, dydt_out ? dydt_out : end,
-                      work);
+  const int status =
+      rkc_step_try(&s->step, &problem, t, h, y, yerr, dydt_in ? dydt_in : start,
+                   dydt_out ? dydt_out : end, work);
+  /* else evolve would try again with another step, in silence */
+  return status == GSL_ENOMEM ? GSL_EFAULT : status;
 }
 
 static int reset(void *state, size_t dim) {
