@@ -1020,10 +1020,10 @@ static void test_recovery(void) {
           integrate_free(it);
           continue;
         }
-        CHECK(codes[c] == GSL_EFAULT ? status == GSL_ENOMEM
-                                     : status == GSL_FAILURE ||
-                                           (codes[c] != GSL_EBADFUNC &&
-                                            status == codes[c]));
+        CHECK(codes[c] == GSL_EFAULT
+                  ? status == GSL_ENOMEM
+                  : status == GSL_FAILURE ||
+                        (codes[c] != GSL_EBADFUNC && status == codes[c]));
         CHECK(integrate_counts(it).accepted == steps);
         CHECK(integrate_time(it) == t);
         CHECK(same(integrate_state(it), y));

@@ -291,13 +291,13 @@ static void test_memory(const char *method) {
     struct integrator *it;
     const struct integrate_options o = {
         .method = method, .control = "standard", .tol = 1e-3, .hinit = 0.01};
-    CHECK(integrate_alloc(&it, &o,
-                          &(struct integrate_problem){
-                              .system = {.function = out_of_memory,
-                                         .dimension = 2,
-                                         .params = &left},
-                              .scale = scale},
-                          0, start) == GSL_SUCCESS);
+    CHECK(integrate_alloc(
+              &it, &o,
+              &(struct integrate_problem){.system = {.function = out_of_memory,
+                                                     .dimension = 2,
+                                                     .params = &left},
+                                          .scale = scale},
+              0, start) == GSL_SUCCESS);
     int status = GSL_SUCCESS;
     for (int k = 0; k < 12 && status == GSL_SUCCESS; k++)
       status = integrate_step(it);
