@@ -17,11 +17,12 @@ struct settings {
   double density;               /* kg/m^3, 0: by fill.mass */
   double overlap, creep;        /* diameters, radii; if given */
   double target;                /* fraction; 0: by friction as given */
+  const char *onto;             /* file of the bed below, NULL: none */
   const char *sizes, *shares;   /* NULL: equal spheres; not given */
   struct similarity similarity; /* of the spheres to the paper's */
   double travel, time;
-  const char *kernel;  /* NULL: the best */
-  char *command;       /* words of the command line, for --stats */
+  const char *kernel; /* NULL: the best */
+  char *command;      /* words of the command line, for --stats */
   const char *pairs, *scene_file, *stats, *log;
   const char *output;              /* NULL: standard output */
   const char *checkpoint, *resume; /* files, or NULL */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "start.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -57,12 +58,17 @@ static void take_frame(const struct bed_reader *reader, const char *name,
   }
 }
 
-/* The last whole frame with spheres of the scene's file, of any format; a bed's
-   keys go into the header. radius: of spheres that come without one. */
+/* The file that the spheres or some of them come from, NULL: none. */
+static const char *file_of_start(const struct settings *s) {
+  return s->scene_file ? s->scene_file : s->onto;
+}
+
+/* The last whole frame with spheres of that file, of any format; a bed's keys
+   go into the header. radius: of spheres that come without one. */
 static void read_scene(const struct settings *s, double radius, struct bed *b,
                        struct bed_header *h, const char **name) {
   struct input in;
-  input_open(&in, s->scene_file);
+  input_open(&in, file_of_start(s));
   *name = in.name;
   const struct bed_reader_options options = {.allow_partial = s->allow_partial,
                                              .may_be_empty = true,
@@ -123,6 +129,17 @@ static bool is_of_start(const struct option_spec *o) {
   static const char *const names[] = {"count", "sizes",  "shares", "base",
                                       "drop",  "jitter", "seed",   NULL};
   return is_one_of(o, names);
+}
+
+/* Of new spheres over a bed, whose base goes on. */
+static bool is_of_new_spheres(const struct option_spec *o) {
+  static const char *const names[] = {"radius", "mass", NULL};
+  return is_one_of(o, names) || (is_of_start(o) && strcmp(o->name, "base"));
+}
+
+/* The same where another method goes on. */
+static bool is_not_of_run_below(const struct option_spec *o) {
+  return is_of_new_spheres(o) || is_step_control(o);
 }
 
 static void refuse_options_of_start(const struct option_spec *options) {
@@ -213,14 +230,28 @@ static void take_density(struct settings *s, struct option_spec *options) {
   s->fill.mass = s->density * 4 / 3 * M_PI * gsl_pow_3(s->fill.radius);
 }
 
+/* Mass that a sphere of this radius has if it is made of what the bed's are. */
+static double mass_of_material(const struct bed *bed, double radius) {
+  double *mass = malloc(bed->n * sizeof *mass);
+  if (!mass)
+    die(EXIT_IO, "out of memory");
+  for (size_t i = 0; i < bed->n; i++)
+    mass[i] = bed->m[i] * gsl_pow_3(radius / bed->r[i]);
+  const double mean = bed_mean(bed, mass);
+  free(mass);
+  return mean;
+}
+
 /* The spheres of a start, and those that its defaults follow: of the mean
-   radius and mass. */
+   radius and mass. Over a bed below they are like its spheres. */
 static void make_spheres(struct settings *s, struct option_spec *options,
-                         struct bed *b) {
+                         const struct bed *below, struct bed *b) {
   if (s->shares && !s->sizes)
     die(EXIT_USAGE, "--shares: expected --sizes beside it");
   if (s->sizes && option_find(options, "radius")->given)
     die(EXIT_USAGE, "--radius: expected no --sizes beside it");
+  if (below->n && !option_find(options, "radius")->given)
+    s->fill.radius = bed_mean(below, below->r);
   check_memory(bed_alloc(b, s->fill.count));
   for (size_t i = 0; i < b->n; i++)
     b->r[i] = s->fill.radius;
@@ -231,6 +262,8 @@ static void make_spheres(struct settings *s, struct option_spec *options,
     s->fill.radius = bed_mean(b, b->r);
   }
   take_density(s, options);
+  if (below->n && !option_find(options, "mass")->given && !(s->density > 0))
+    s->fill.mass = mass_of_material(below, s->fill.radius);
   sizes_masses(b->n, b->r, s->fill.radius, s->fill.mass, b->m);
 }
 
@@ -266,9 +299,9 @@ static void check_tubes(const struct settings *s, const struct bed *b,
   for (size_t k = 0; k < s->scene.walls_count; k++) {
     const double radius = s->scene.walls[k].radius;
     if (radius > 0 && radius <= widest)
-      die(s->scene_file ? EXIT_INPUT : EXIT_USAGE,
+      die(file_of_start(s) ? EXIT_INPUT : EXIT_USAGE,
           "%s: a tube of radius %g m is no wider than a bead of radius %g m",
-          s->scene_file ? name : "--cylinder", radius, widest);
+          file_of_start(s) ? name : "--cylinder", radius, widest);
   }
 }
 
@@ -278,16 +311,16 @@ static void check_periods(struct settings *s, const struct bed *b,
   const double *period = s->scene.period;
   if (!periodic_any(period))
     return;
-  if (s->scene_file && !bed_header_get(h, "base"))
+  if (file_of_start(s) && !bed_header_get(h, "base"))
     die(EXIT_USAGE, "--periodic: %s has no base=a,b in its header", name);
   const double widest = gsl_stats_max(b->r, 1, b->n);
   const double least = 2 * GSL_MAX(3 * widest, 2 * widest + s->scene.law.lmax);
   for (int k = 0; k < 2; k++)
     if (period[k] > 0 && period[k] < least * (1 - 1e-9))
-      die(s->scene_file ? EXIT_INPUT : EXIT_USAGE,
+      die(file_of_start(s) ? EXIT_INPUT : EXIT_USAGE,
           "%s: a periodic side of %g m is too short, expected at least %g m: "
           "three diameters, and twice the reach of a contact",
-          s->scene_file ? name : "--periodic", period[k], least);
+          file_of_start(s) ? name : "--periodic", period[k], least);
   if (period[0] > 0 && period[1] > 0) /* as it stands in a header */
     s->words.periodic = "x y";
 }
@@ -314,12 +347,19 @@ static bool is_replaced(const struct scene *s, const double normal[3]) {
   return false;
 }
 
-/* The walls of a start of its own, and what of it is to be filled. */
-static void make_container(struct settings *s, struct option_spec *options) {
-  const bool own_walls = option_find(options, "wall")->given;
+/* The walls of a start of its own, and what of it is to be filled. A bed below
+   has its walls. */
+static void make_container(struct settings *s, struct option_spec *options,
+                           const struct bed_header *h) {
+  const bool known =
+      option_find(options, "base")->given || bed_header_get(h, "base");
+  const bool own_walls = s->onto || option_find(options, "wall")->given;
   const struct wall *tube = upright_tube(&s->scene);
   double *base = s->words.base.at;
-  if (tube && !option_find(options, "base")->given)
+  if (s->onto && !tube && !known)
+    die(EXIT_USAGE, "--onto: %s has no base=a,b in its header, expected --base",
+        s->onto);
+  if (tube && !known)
     base[0] = base[1] = 2 * tube->radius;
   if (!(base[0] > 0 && base[1] > 0))
     die(EXIT_USAGE, "--base: expected two numbers above 0");
@@ -340,8 +380,21 @@ static void make_container(struct settings *s, struct option_spec *options) {
   scene_free(&box);
 }
 
-static void fill(struct settings *s, struct bed *b) {
-  const int status = fill_grid_of(&s->fill, &s->scene, b);
+/* Upper end of the spheres; minus infinity for none. */
+static double top_of(const struct bed *b) {
+  double top = GSL_NEGINF;
+  for (size_t i = 0; i < b->n; i++)
+    top = GSL_MAX(top, b->x[3 * i + 2] + b->r[i]);
+  return top;
+}
+
+/* below: the bed that the new spheres are put over; may be empty. */
+static void fill(const struct settings *s, const struct bed *below,
+                 struct bed *b) {
+  struct fill f = s->fill;
+  if (below->n)
+    f.drop += top_of(below);
+  const int status = fill_grid_of(&f, &s->scene, b);
   check_memory(status);
   if (status == GSL_SUCCESS)
     return;
@@ -355,12 +408,43 @@ static void fill(struct settings *s, struct bed *b) {
       s->fill.count, widest, s->fill.drop, s->fill.jitter);
 }
 
+/* The bed below and then the new spheres, with the ids that come next; the
+   parts are freed. */
+static void join(struct bed *below, struct bed *b) {
+  struct bed all;
+  const size_t n = below->n, vectors = 3 * n;
+  check_memory(bed_alloc(&all, n + b->n));
+  if (below->fixed)
+    check_memory(bed_fix_none(&all));
+  all.t = below->t;
+  long last = LONG_MIN;
+  for (size_t i = 0; i < n; i++) {
+    all.id[i] = below->id[i];
+    last = GSL_MAX(last, below->id[i]);
+    if (below->fixed)
+      all.fixed[i] = below->fixed[i];
+  }
+  if (last > LONG_MAX - (long)b->n)
+    die(EXIT_INPUT, "id %ld: expected room for %zu larger ones", last, b->n);
+  for (size_t i = 0; i < b->n; i++)
+    all.id[n + i] = last + 1 + (long)i;
+  memcpy(all.x, below->x, vectors * sizeof *all.x);
+  memcpy(all.v, below->v, vectors * sizeof *all.v);
+  memcpy(all.w, below->w, vectors * sizeof *all.w);
+  memcpy(all.r, below->r, n * sizeof *all.r);
+  memcpy(all.m, below->m, n * sizeof *all.m);
+  memcpy(all.x + vectors, b->x, 3 * b->n * sizeof *all.x);
+  memcpy(all.r + n, b->r, b->n * sizeof *all.r);
+  memcpy(all.m + n, b->m, b->n * sizeof *all.m);
+  bed_free(below);
+  bed_free(b);
+  *b = all;
+}
+
 /* A wall above, which a start of its own is to be below as a whole. */
 static void add_lid(struct settings *s, const struct bed *b) {
   const double point[3] = {0, 0, s->lid}, up[3] = {0, 0, 1};
-  double top = GSL_NEGINF;
-  for (size_t i = 0; i < b->n; i++)
-    top = GSL_MAX(top, b->x[3 * i + 2] + b->r[i]);
+  const double top = top_of(b);
   if (!s->scene_file && top > s->lid)
     die(EXIT_USAGE,
         "--lid %g: the start reaches up to %g m, expected a lid above it",
@@ -412,40 +496,71 @@ static void write_header(struct settings *s, const struct option_spec *options,
   }
 }
 
+/* A whole start from a file. */
+static void take_scene(struct settings *s, struct option_spec *options,
+                       struct bed *b, struct bed_header *header,
+                       const char **name) {
+  struct option_spec *radius = option_find(options, "radius");
+  refuse_options_of_start(options);
+  read_scene(s, radius->given ? s->fill.radius : 0, b, header, name);
+  check_radius(s, radius, b, *name);
+  check_masses(s, options, b, *name);
+}
+
+/* A bed from a file that new spheres are put over. */
+static void take_below(struct settings *s, struct option_spec *options,
+                       struct bed *below, struct bed_header *header,
+                       const char **name) {
+  if (s->scene_file)
+    die(EXIT_USAGE, "--onto: expected no --scene beside it");
+  struct option_spec *radius = option_find(options, "radius");
+  read_scene(s, radius->given ? s->fill.radius : 0, below, header, name);
+  if (option_find(options, "base")->given && bed_header_get(header, "base"))
+    die(EXIT_USAGE, "--base: %s has one, expected none beside --onto", *name);
+}
+
 void start_make(struct settings *s, struct option_spec *options, struct bed *b,
                 struct bed_header *header) {
   const char *name = "start";
-  if (s->scene_file) {
-    struct option_spec *radius = option_find(options, "radius");
-    refuse_options_of_start(options);
-    read_scene(s, radius->given ? s->fill.radius : 0, b, header, &name);
-    check_radius(s, radius, b, name);
-    check_masses(s, options, b, name);
-    s->similarity = header_similarity(header, options, &s->words,
-                                      bed_mean(b, b->r), bed_mean(b, b->m));
+  struct bed below = {0};
+  if (s->onto)
+    take_below(s, options, &below, header, &name);
+  if (s->scene_file)
+    take_scene(s, options, b, header, &name);
+  else
+    make_spheres(s, options, &below, b);
+  s->similarity = header_similarity(header, options, &s->words,
+                                    bed_mean(b, b->r), bed_mean(b, b->m));
+  if (file_of_start(s)) {
     const bool other_method = option_find(options, "method")->given;
-    const char *bad =
-        header_options(header, options, other_method ? is_step_control : NULL);
+    const char *bad = header_options(
+        header, options,
+        s->onto        ? other_method ? is_not_of_run_below : is_of_new_spheres
+        : other_method ? is_step_control
+                       : NULL);
     if (bad)
       die(EXIT_INPUT, "%s: %s", name, bad);
-  } else {
-    make_spheres(s, options, b);
-    s->similarity = header_similarity(header, options, &s->words,
-                                      bed_mean(b, b->r), bed_mean(b, b->m));
   }
   take_defaults(s);
   const char *wrong = scene_finish(&s->scene, &s->words);
   /* options are checked one by one, but for the numbers of gravity */
-  if (wrong && s->scene_file && !option_find(options, "gravity")->given)
+  if (wrong && file_of_start(s) && !option_find(options, "gravity")->given)
     die(EXIT_INPUT, "%s: %s", name, wrong);
   if (wrong)
     die(EXIT_USAGE, "--%s", wrong);
   check_turning(&s->scene, options);
   check_tubes(s, b, name);
   check_periods(s, b, header, name);
+  if (s->onto)
+    check_periods(s, &below, header, name);
   if (!s->scene_file) {
-    make_container(s, options);
-    fill(s, b);
+    make_container(s, options, header);
+    fill(s, &below, b);
+  }
+  if (s->onto) {
+    join(&below, b);
+    if (!option_find(options, "time")->given)
+      s->time += b->t;
   }
   if (option_find(options, "lid")->given)
     add_lid(s, b);

@@ -116,8 +116,8 @@ static void line_near(struct search *q, double root, double *intercept,
 
 static void refuse_options(const struct settings *s,
                            struct option_spec *options) {
-  static const char *const others[] = {"scene", "friction", "wall", "cylinder",
-                                       "periodic"};
+  static const char *const others[] = {"scene", "onto",     "friction",
+                                       "wall",  "cylinder", "periodic"};
   for (size_t k = 0; k < sizeof others / sizeof *others; k++)
     if (option_find(options, others[k])->given)
       die(EXIT_USAGE, "--target-fraction: expected no --%s beside it",

@@ -72,7 +72,7 @@ void options_scale(struct option_spec *options, const struct similarity *s);
 /* Texts that options point to. */
 struct option_texts {
   size_t count;
-  char *at[16];
+  char *at[32];
 };
 void option_texts_free(struct option_texts *t);
 
