@@ -17,6 +17,7 @@ struct settings {
   double density;               /* kg/m^3, 0: by fill.mass */
   double overlap, creep;        /* diameters, radii; if given */
   double target;                /* fraction; 0: by friction as given */
+  const char *fill_way;         /* of fill_ways, NULL: the first */
   const char *onto;             /* file of the bed below, NULL: none */
   const char *sizes, *shares;   /* NULL: equal spheres; not given */
   struct similarity similarity; /* of the spheres to the paper's */

@@ -27,6 +27,10 @@ static void no_lid(char *text, size_t size) {
   snprintf(text, size, "none");
 }
 
+static void fill_unset(char *text, size_t size) {
+  snprintf(text, size, "%s", fill_ways[FILL_GRID].name);
+}
+
 static void by_kappa(char *text, size_t size) {
   snprintf(text, size, "by --kappa and --f0");
 }
@@ -136,6 +140,13 @@ int main(int argc, char **argv) {
               1, 0, 0),
       NUMBER("jitter", &s.fill.jitter, 0, 0.5, "radii",
              "random displacement at the start"),
+      {.name = "fill", .type = OPTION_TEXT, .value = &s.fill_way,
+       OPTION_TABLE(fill_ways), .unset = fill_unset,
+       .help = "how spheres start", .parameter = true, .optional = true},
+      {.name = "rate", .type = OPTION_DOUBLE, .value = &s.fill.rate,
+       .most = OPTION_MANY, .unit = "1/s; 0: that with the slowest arrival",
+       .help = "spheres of the rain that arrive",
+       .parameter = true, .optional = true},
       SEED_OPTION(&s.fill.seed, "of the random start"),
       SCENE_OPTIONS(s.scene, s.words),
       {.name = "overlap", .type = OPTION_DOUBLE, .value = &s.overlap,

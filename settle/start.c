@@ -127,7 +127,8 @@ static bool is_step_control(const struct option_spec *o) {
    already. */
 static bool is_of_start(const struct option_spec *o) {
   static const char *const names[] = {"count", "sizes",  "shares", "base",
-                                      "drop",  "jitter", "seed",   NULL};
+                                      "drop",  "jitter", "seed",   "fill",
+                                      "rate",  NULL};
   return is_one_of(o, names);
 }
 
@@ -388,17 +389,53 @@ static double top_of(const struct bed *b) {
   return top;
 }
 
+static enum fill_way way_of(const struct settings *s) {
+  int way = FILL_GRID;
+  while (s->fill_way && strcmp(fill_ways[way].name, s->fill_way))
+    way++;
+  return (enum fill_way)way;
+}
+
+/* Options that this way of filling has no use for. */
+static void check_way(const struct settings *s, struct option_spec *options) {
+  static const struct {
+    const char *name;
+    bool used[3];
+  } uses[] = {{"jitter", {[FILL_GRID] = true}},
+              {"drop", {[FILL_GRID] = true, [FILL_RANDOM] = true}},
+              {"rate", {[FILL_RAIN] = true}}};
+  const enum fill_way way = way_of(s);
+  for (size_t k = 0; k < sizeof uses / sizeof *uses; k++)
+    if (option_find(options, uses[k].name)->given && !uses[k].used[way])
+      die(EXIT_USAGE, "--%s: has no use with --fill %s", uses[k].name,
+          fill_ways[way].name);
+}
+
 /* below: the bed that the new spheres are put over; may be empty. */
 static void fill(const struct settings *s, const struct bed *below,
                  struct bed *b) {
+  static int (*const fills[])(const struct fill *, const struct scene *,
+                              struct bed *) = {[FILL_GRID] = fill_grid_of,
+                                               [FILL_RANDOM] = fill_random,
+                                               [FILL_RAIN] = fill_rain};
+  const enum fill_way way = way_of(s);
   struct fill f = s->fill;
+  if (way == FILL_RAIN)
+    f.drop = 0;
   if (below->n)
     f.drop += top_of(below);
-  const int status = fill_grid_of(&f, &s->scene, b);
+  const int status = fills[way](&f, &s->scene, b);
   check_memory(status);
   if (status == GSL_SUCCESS)
     return;
+  if (status == GSL_EDOM)
+    die(EXIT_USAGE, "--fill rain: expected gravity downwards");
   const double widest = gsl_stats_max(b->r, 1, b->n);
+  if (way != FILL_GRID)
+    die(EXIT_USAGE,
+        "--count %zu: not so many spheres of radius %g found places between "
+        "the walls with --fill %s",
+        s->fill.count, widest, fill_ways[way].name);
   if (s->fill.base[0] < 2.5 * widest || s->fill.base[1] < 2.5 * widest)
     die(EXIT_USAGE, "--base %g,%g: not one sphere of radius %g fits",
         s->fill.base[0], s->fill.base[1], widest);
@@ -434,6 +471,7 @@ static void join(struct bed *below, struct bed *b) {
   memcpy(all.r, below->r, n * sizeof *all.r);
   memcpy(all.m, below->m, n * sizeof *all.m);
   memcpy(all.x + vectors, b->x, 3 * b->n * sizeof *all.x);
+  memcpy(all.v + vectors, b->v, 3 * b->n * sizeof *all.v);
   memcpy(all.r + n, b->r, b->n * sizeof *all.r);
   memcpy(all.m + n, b->m, b->n * sizeof *all.m);
   bed_free(below);
@@ -554,6 +592,7 @@ void start_make(struct settings *s, struct option_spec *options, struct bed *b,
   if (s->onto)
     check_periods(s, &below, header, name);
   if (!s->scene_file) {
+    check_way(s, options);
     make_container(s, options, header);
     fill(s, &below, b);
   }

@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# How settle fills a container: over an existing bed.
+# How settle fills a container: over an existing bed, at random, by rain.
 . tests/harness.sh
 
 refused() { # STATUS WORDS COMMAND...: one line with these words, and no output
@@ -89,5 +89,127 @@ refused 2 'expected no --onto beside it' "$B/settle" --onto "$T/below.bed" \
   --target-fraction 0.6
 refused 3 'no wider than a bead' "$B/settle" --onto "$T/below.bed" --radius 0.4
 refused 2 'reaches up to' "$B/settle" --onto "$T/below.bed" --lid 1
+
+# --- at random and by rain ----------------------------------------------------
+outside() { # how many spheres are not within the walls; HALF A B: of a tube about
+  # (A, B), if HALF is 0 of a box of sides A and B, PX PY: which are periodic
+  rows "$T/a.bed" | awk -v half="$1" -v a="$2" -v b="$3" -v px="${4:-0}" \
+    -v py="${5:-0}" '
+    function far(x, side, p) { return p ? x < 0 || x >= side : x < $5 || x > side - $5 }
+    $4 < $5 { n++; next }
+    half > 0 { if (sqrt(($2 - a)^2 + ($3 - b)^2) > half - $5 * (1 - 1e-8)) n++; next }
+    far($2, a, px) || far($3, b, py) { n++ }
+    END { print n + 0 }'
+}
+sizes=lognormal:0.05,0.4
+for fill in random rain; do
+  while IFS='|' read -r periods walls options; do
+    # shellcheck disable=SC2086
+    $start --fill $fill $options --time 1e-4 > "$T/a.bed" 2> "$T/err"
+    check "$fill $options" [ $? -eq 0 ]
+    # shellcheck disable=SC2086
+    within "$fill $options: closest" "$(closest $periods "$T/a.bed")" 1 1.5
+    # shellcheck disable=SC2086
+    within "$fill $options: outside" "$(outside $walls)" 0 0
+    # shellcheck disable=SC2086
+    check "$fill $options: another seed" [ "$($start --fill $fill $options --time 1e-4 \
+      --seed 7 | grep -m 1 -A 1 '^id')" != "$(grep -m 1 -A 1 '^id' "$T/a.bed")" ]
+  done << END
+0 0|0 1 1|--count 150
+0.8 0.7|0 0.8 0.7 1 1|--count 120 --periodic xy --base 0.8,0.7
+0.8 0|0 0.8 0.4 1 0|--count 60 --periodic x --base 0.8,0.4
+0 0|0.35 0.3 0.2|--count 60 --cylinder 0.3,0.2,0,0,0,1,0.35
+0 0|0.15 0 0|--count 20 --cylinder 0,0,0,0,0,1,0.15
+0 0|0 0.5 0.5|--count 150 --base 0.5,0.5 --sizes $sizes
+END
+  $start --fill $fill --count 50 --time 1e-4 > "$T/a.bed"
+  check "$fill: the same bits again" cmp -s "$T/a.bed" <($start --fill $fill \
+    --count 50 --time 1e-4)
+  check "$fill: lengths by 4" cmp -s <(rows "$T/a.bed" | awk '{ printf "%.17g\n%.17g\n%.17g\n",
+    4 * $2, 4 * $3, 4 * $4 }') <($start --fill $fill --count 50 --time 1e-4 --radius 0.4 |
+    rows /dev/stdin | awk '{ printf "%.17g\n%.17g\n%.17g\n", $2, $3, $4 }')
+  check "$fill in the header" [ "$(grep -c "^# fill=$fill" "$T/a.bed")" = 1 ]
+  "$B/settle" --quiet --fill $fill --count 50 --time 4 > "$T/below.bed" 2> "$T/err"
+  check "$fill settles" [ $? -eq 0 ]
+  "$B/analyze" contacts "$T/below.bed" > "$T/tsv"
+  within "$fill: the floor carries it" "$(awk 'NR == 1 { for (k = 1; k <= NF; k++)
+    at[$k] = k } NR == 2 { print $at["floor"] }' "$T/tsv")" 0.8 1.1
+  "$B/settle" --quiet --scene "$T/below.bed" --time 4.01 > "$T/on.bed"
+  check "$fill: the header goes on" [ "$(grep '^# fill=' "$T/on.bed")" = "# fill=$fill" ]
+  $start --onto "$T/below.bed" --fill $fill --count 30 --time 4.01 > "$T/a.bed" 2> "$T/err"
+  check "$fill onto a bed" [ $? -eq 0 ]
+  check "$fill: the old spheres as they were" cmp -s <(rows "$T/below.bed") \
+    <(rows "$T/a.bed" | head -n 50)
+  within "$fill onto a bed: above" "$(rows "$T/a.bed" | awk '
+    NR <= 50 && $4 + $5 > top { top = $4 + $5 }
+    NR > 50 && (least == "" || $4 - $5 - top < least) { least = $4 - $5 - top }
+    END { print least }')" 0 3
+  refused 2 'found places between the walls' "$B/settle" --fill $fill --base 0.15,1
+  refused 2 'found places between the walls' "$B/settle" --fill $fill --count 900 \
+    --cylinder 0,0.5,2,1,0,0,0.5
+  refused 2 "--jitter: has no use with --fill $fill" "$B/settle" --fill $fill --jitter 0.1
+  refused 2 'makes a start, expected none beside --scene' "$B/settle" --fill $fill \
+    --scene "$T/below.bed"
+done
+check 'no key that was not asked for' [ "$("$B/settle" --quiet --count 1 --time 0.1 |
+  grep -cE '^# (fill|rate)=')" = 0 ]
+check 'the grid by name is the grid' cmp -s <("$B/settle" --quiet --count 9 --time 0.1) \
+  <("$B/settle" --quiet --count 9 --time 0.1 --fill grid | grep -v '^# fill=grid')
+# the share of volume of the region
+within 'share of random places' "$($start --fill random --count 400 --time 1e-4 |
+  rows /dev/stdin | awk '{ z = $4; if (low == "" || z < low) low = z
+    if (z > high) high = z; v += 4.18879 * $5^3 } END { print v / (high - low + 0.2) }')" \
+  0.17 0.22
+
+# rain: free fall from the start frame, by its own closed form
+arrivals() { # FILE: the largest error of k / rate and of the speed's mean
+  rows "$1" | awk -v rate="$2" 'BEGIN { g = 9.81 }
+    { h = $4 - $5; u = -$9; v = sqrt(u * u + 2 * g * h); t = (v - u) / g
+      d = t - NR / rate; if (d < 0) d = -d; if (d > late) late = d
+      if (u < 0) up++
+      if (NR == 1) first = v
+      d = v - first; if (d < 0) d = -d; if (d > off) off = d }
+    END { print (late < 1e-12 && off < 1e-11 && !up) ? "fine" : late " " off " " up }'
+}
+$start --fill rain --rate 90 --count 100 --time 1e-4 > "$T/a.bed"
+check 'columns are those that are meant' grep -q \
+  "^id	x	y	z	r	m	vx	vy	vz" "$T/a.bed"
+check "rain at its rate: $(arrivals "$T/a.bed" 90)" [ "$(arrivals "$T/a.bed" 90)" = fine ]
+check 'the rate in the header' grep -qx '# rate=90' "$T/a.bed"
+# by default as slow as can be: rate^2 = g n / d, d = 4/3 pi r^3 / 0.2
+$start --fill rain --count 100 --time 1e-4 > "$T/a.bed"
+rate=$(awk 'BEGIN { printf "%.17g", sqrt(9.81 * 100 / (4 / 3 * atan2(0, -1) * 1e-3 / 0.2)) }')
+check "the default rate: $(arrivals "$T/a.bed" "$rate")" \
+  [ "$(arrivals "$T/a.bed" "$rate")" = fine ]
+# the run does as the start says: at 0.19 s the first is 0.01 s before the floor,
+# at 0.25 s it has bounced
+for at in 0.19 0.25; do
+  "$B/settle" --quiet --fill rain --rate 5 --count 4 --base 4,4 --model basic \
+    --time $at > "$T/a.bed"
+  within "at $at s: when they arrive" "$(rows "$T/a.bed" | awk -v at=$at '{ u = -$9
+    t = (sqrt(u * u + 2 * 9.81 * ($4 - $5)) - u) / 9.81
+    d = t - (NR / 5 - at); if (d < 0) d = -d
+    if (NR / 5 > at && d > most) most = d } END { print most + 0 }')" 0 1e-4
+done
+within 'the first has bounced' "$(rows "$T/a.bed" | awk 'NR == 1 { print $9 }')" 1 9
+: > "$T/err"
+refused 2 '--rate: has no use with --fill grid' "$B/settle" --rate 10
+refused 2 '--drop: has no use with --fill rain' "$B/settle" --fill rain --drop 1
+refused 2 'expected gravity downwards' "$B/settle" --fill rain --gravity 1,0,-9
+refused 2 'found places' "$B/settle" --fill rain --rate 1e-300
+refused 2 'one of grid random rain' "$B/settle" --fill snow
+refused 2 'makes a start, expected none beside --scene' "$B/settle" --rate 9 \
+  --scene "$T/below.bed"
+
+# a checkpoint goes on to the last bit, and needs neither the file nor the places
+cp "$T/below.bed" "$T/gone.bed"
+"$B/settle" --quiet --onto "$T/gone.bed" --fill rain --rate 200 --count 10 --time 4.2 \
+  --output "$T/whole.bed"
+"$B/settle" --quiet --onto "$T/gone.bed" --fill rain --rate 200 --count 10 --time 4.2 \
+  --output "$T/two.bed" --checkpoint "$T/state" --every 0
+rm "$T/gone.bed"
+"$B/settle" --quiet --resume "$T/state" 2> "$T/err"
+check 'resumed' [ $? -eq 0 ]
+check 'from a checkpoint' cmp -s "$T/whole.bed" "$T/two.bed"
 
 check_done
