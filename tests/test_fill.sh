@@ -121,6 +121,7 @@ for fill in random rain; do
 0 0|0.35 0.3 0.2|--count 60 --cylinder 0.3,0.2,0,0,0,1,0.35
 0 0|0.15 0 0|--count 20 --cylinder 0,0,0,0,0,1,0.15
 0 0|0 0.5 0.5|--count 150 --base 0.5,0.5 --sizes $sizes
+0 0|0 0.3 0.3|--count 60 --base 0.3,0.3
 END
   $start --fill $fill --count 50 --time 1e-4 > "$T/a.bed"
   check "$fill: the same bits again" cmp -s "$T/a.bed" <($start --fill $fill \
@@ -162,9 +163,9 @@ within 'share of random places' "$($start --fill random --count 400 --time 1e-4 
   0.17 0.22
 
 # rain: free fall from the start frame, by its own closed form
-arrivals() { # FILE: the largest error of k / rate and of the speed's mean
-  rows "$1" | awk -v rate="$2" 'BEGIN { g = 9.81 }
-    { h = $4 - $5; u = -$9; v = sqrt(u * u + 2 * g * h); t = (v - u) / g
+arrivals() { # FILE RATE LEVEL: errors of k / rate and of the one speed
+  rows "$1" | awk -v rate="$2" -v level="${3:-0}" 'BEGIN { g = 9.81 }
+    { h = $4 - $5 - level; u = -$9; v = sqrt(u * u + 2 * g * h); t = (v - u) / g
       d = t - NR / rate; if (d < 0) d = -d; if (d > late) late = d
       if (u < 0) up++
       if (NR == 1) first = v
@@ -181,6 +182,18 @@ $start --fill rain --count 100 --time 1e-4 > "$T/a.bed"
 rate=$(awk 'BEGIN { printf "%.17g", sqrt(9.81 * 100 / (4 / 3 * atan2(0, -1) * 1e-3 / 0.2)) }')
 check "the default rate: $(arrivals "$T/a.bed" "$rate")" \
   [ "$(arrivals "$T/a.bed" "$rate")" = fine ]
+# in a tube the area is the tube's
+$start --fill rain --count 100 --cylinder 0,0,0,0,0,1,0.6 --time 1e-4 > "$T/a.bed"
+rate=$(awk 'BEGIN { printf "%.17g", sqrt(9.81 * 100 / (4 / 3 * 1e-3 / 0.36 / 0.2)) }')
+check "the default rate in a tube: $(arrivals "$T/a.bed" "$rate")" \
+  [ "$(arrivals "$T/a.bed" "$rate")" = fine ]
+# over a bed it arrives at its top, from the bed's time on
+$start --onto "$T/below.bed" --fill rain --rate 70 --count 30 --time 4.01 > "$T/a.bed"
+(echo id; rows "$T/a.bed" | tail -n 30) > "$T/new.tsv"
+top=$(rows "$T/below.bed" | awk '{ if ($4 + $5 > top) top = $4 + $5 }
+  END { printf "%.17g", top }')
+check "rain onto a bed: $(arrivals "$T/new.tsv" 70 "$top")" \
+  [ "$(arrivals "$T/new.tsv" 70 "$top")" = fine ]
 # the run does as the start says: at 0.19 s the first is 0.01 s before the floor,
 # at 0.25 s it has bounced
 for at in 0.19 0.25; do
