@@ -45,6 +45,15 @@ within() { # NAME VALUE LOW HIGH: a number, and in that range
     'BEGIN { exit !(x ~ /^[+-]?[0-9][0-9.e+-]*$/ && x + 0 >= a && x + 0 <= b) }'
 }
 
+refused() { # STATUS WORDS COMMAND...
+  # these words on standard error, and no output; scripts may have another
+  "${@:3}" > "$T/out" 2> "$T/err"
+  local status=$?
+  check "status $status for $1: ${*:3}" [ "$status" -eq "$1" ]
+  check "no '$2' in '$(head -n 1 "$T/err")': ${*:3}" grep -qF -- "$2" "$T/err"
+  check "output without a bed: ${*:3}" [ ! -s "$T/out" ]
+}
+
 sanitized() { # whether the address sanitizer is in: it needs all addresses there are
   nm "$B/analyze" 2>/dev/null | grep -q __asan_init &&
     echo "skipped under the address sanitizer: $1"

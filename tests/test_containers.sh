@@ -4,13 +4,6 @@
 # tested in tests/test_containers.c.
 . tests/harness.sh
 
-refused() { # STATUS WORDS COMMAND...: one line with these words, and no output
-  "${@:3}" > "$T/out" 2> "$T/err"
-  local status=$?
-  check "status $status for $1: ${*:3}" [ "$status" -eq "$1" ]
-  check "no '$2' in '$(head -n 1 "$T/err")': ${*:3}" grep -qF -- "$2" "$T/err"
-  check "output without a bed: ${*:3}" [ ! -s "$T/out" ]
-}
 row() { # of a table: column NAME of the first row
   awk -v name="$1" 'NR == 1 { for (k = 1; k <= NF; k++) at[$k] = k }
     NR == 2 { print $at[name] }' "$2"

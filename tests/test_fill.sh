@@ -3,13 +3,6 @@
 # How settle fills a container: over an existing bed, at random, by rain.
 . tests/harness.sh
 
-refused() { # STATUS WORDS COMMAND...: one line with these words, and no output
-  "${@:3}" > "$T/out" 2> "$T/err"
-  local status=$?
-  check "status $status for $1: ${*:3}" [ "$status" -eq "$1" ]
-  check "no '$2' in '$(head -n 1 "$T/err")': ${*:3}" grep -qF -- "$2" "$T/err"
-  check "output without a bed: ${*:3}" [ ! -s "$T/out" ]
-}
 rows() { # of the first frame
   awk -F '\t' '/^id/ { on = 1; next } /^$/ { if (on) exit } /^#/ { next } on' "$1"
 }
