@@ -76,11 +76,31 @@ ended 'KILL, rotation, verlet' KILL "${small[@]}" --method verlet --step 1e-4 --
 ended 'KILL, two threads, multirate' KILL "${small[@]}" --time 4 --threads 2
 ended 'INT, TERM, HUP, XCPU, multirate' 'INT TERM HUP XCPU' "${small[@]}" --time 4
 
+# Of a run that met a fault: it ended well, or says why and goes on where it was
+survives() { # FAULT PATTERN: of what it says
+  tried=$((tried + 1))
+  if ((status != 0)); then
+    if ((status != 1)) || ! grep -q -e "$2" "$T/err"; then
+      wrong=$((wrong + 1))
+      echo "$1: exit status $status" >&2
+      return
+    fi
+    # before the first checkpoint there is nothing that could be lost
+    [[ -e $D/check ]] || return
+    "$B/settle" --quiet --resume "$D/check" 2>"$T/err" || {
+      lost=$((lost + 1))
+      echo "$1: $(cat "$T/err")" >&2
+      return
+    }
+  fi
+  compare
+}
+
 # --- calls that fail ------------------------------------------------------------
 if ! ${CC:-cc} -shared -fPIC -o "$T/faults.so" tests/faults.c -ldl 2>"$T/err"; then
   echo 'skipped: calls that fail, which need a compiler and a loader that preloads'
 else
-  # Each call in turn: the run ends well, or says why and goes on where it was
+  # Each call in turn
   failing() { # CALL MOST EVERY ARGUMENT...
     local call=$1 most=$2 every=$3 k
     shift 3
@@ -93,22 +113,7 @@ else
         --log "$D/log" --checkpoint "$D/check" --every "$every" "$@" 2>"$T/err"
       status=$?
       [[ -e $T/hit ]] || break
-      tried=$((tried + 1))
-      if ((status != 0)); then
-        if ((status != 1)) || [[ ! -s $T/err ]]; then
-          wrong=$((wrong + 1))
-          echo "$call $k: exit status $status" >&2
-          continue
-        fi
-        # before the first checkpoint there is nothing that could be lost
-        [[ -e $D/check ]] || continue
-        "$B/settle" --quiet --resume "$D/check" 2>"$T/err" || {
-          lost=$((lost + 1))
-          echo "$call $k: $(cat "$T/err")" >&2
-          continue
-        }
-      fi
-      compare
+      survives "$call $k" ''
     done
     row "$call fails"
   }
@@ -134,21 +139,7 @@ else
       --log "$D/log" --checkpoint "$D/check" --every 0.001 "${short[@]}" \
       2>"$T/err"
     status=$?
-    tried=$((tried + 1))
-    if ((status != 0)); then
-      if ((status != 1)) || ! grep -q 'File too large' "$T/err"; then
-        wrong=$((wrong + 1))
-        echo "size $size: exit status $status" >&2
-        continue
-      fi
-      [[ -e $D/check ]] || continue
-      "$B/settle" --quiet --resume "$D/check" 2>"$T/err" || {
-        lost=$((lost + 1))
-        echo "size $size: $(cat "$T/err")" >&2
-        continue
-      }
-    fi
-    compare
+    survives "size $size" 'File too large'
   done
   row 'a file may not grow'
 fi
