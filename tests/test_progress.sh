@@ -41,9 +41,26 @@ if ! command -v script >/dev/null; then
   check_done
   exit
 fi
-terminal() { # ARGUMENT...: what analyze writes to a terminal as standard error
-  script -qec "timeout 120 '$B/analyze' ${*} 2>&1 >'$T/rows'" /dev/null |
+# The line comes after half a second: on a fast machine too, for each command is
+# held up for one second, in parts.
+cat >"$T/slowly" <<'END'
+#!/bin/bash
+"$@" <&0 &
+for _ in 1 2 3 4; do
+  sleep 0.03
+  kill -STOP $! 2>/dev/null || break
+  sleep 0.25
+  kill -CONT $!
+done
+wait $!
+END
+chmod +x "$T/slowly"
+terminal_of() { # COMMAND: what it writes to a terminal as standard error
+  script -qec "timeout 120 '$T/slowly' $* 2>&1 >'$T/rows'" /dev/null |
     tr '\r' '\n' >"$T/screen"
+}
+terminal() { # ARGUMENT...: of analyze
+  terminal_of "'$B/analyze' $*"
 }
 shows() { # NAME PATTERN
   check "$1: shows '$2'" grep -Eq "$2" "$T/screen"
@@ -57,9 +74,9 @@ for verb in 'profile --points 3000' 'fraction --sampled 500' 'gr --bins 3000' \
 done
 terminal "fraction --sampled 400 '$T/three.csv'"
 shows 'frames of a file' "$share.*frame [23]  [0-9]+ s left"
-terminal "<'$T/one.csv' profile --points 3000"
+terminal "profile --points 3000 <'$T/one.csv'"
 shows 'a file as standard input' "$share.*frame 1  [0-9]+ s left"
-script -qec "cat '$T/one.csv' | '$B/analyze' profile --points 3000 2>&1 \
+script -qec "cat '$T/one.csv' | '$T/slowly' '$B/analyze' profile --points 3000 2>&1 \
   >'$T/rows'" /dev/null | tr '\r' '\n' >"$T/screen"
 shows 'a pipe' "$share.*of frame 1  [0-9]+ s left"
 terminal "export --format raw --cells 50 --output '$T/raw' '$T/one.csv'"
@@ -75,9 +92,6 @@ else
   echo 'skipped: draw and movie (gnuplot is not installed)'
 fi
 # settle and bounce have the same line
-terminal_of() { # COMMAND
-  script -qec "timeout 120 $* 2>&1 >'$T/rows'" /dev/null | tr '\r' '\n' >"$T/screen"
-}
 terminal_of "'$B/settle' --time 8"
 shows 'settle' '^settle: +[0-9]+ %  t=[0-9.]+ s  h=.* [0-9]+ evaluations  [0-9]+ s left'
 check 'settle: the line is gone' test "$(tail -n 1 "$T/screen")" = $'\e[K'
@@ -86,7 +100,7 @@ check 'settle --quiet' test ! -s "$T/screen"
 terminal_of "'$B/bounce' --tol 1e-13 --control standard --method rkf45 --time 3000"
 shows 'bounce' '^bounce: +[0-9]+ %  t=[0-9.]+ s .* s left'
 # rows on the same terminal: each on a line of its own
-script -qec "timeout 120 '$B/analyze' profile --points 3000 '$T/one.csv'" \
+script -qec "timeout 120 '$T/slowly' '$B/analyze' profile --points 3000 '$T/one.csv'" \
   /dev/null | tr -d '\r' >"$T/screen"
 "$B/analyze" profile --points 3000 "$T/one.csv" >"$T/rows"
 shows 'rows on the terminal' 'frame 1  [0-9]+ s left'
