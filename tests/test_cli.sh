@@ -88,8 +88,6 @@ bed "$T/short" "$floor" '0\t0.5\t0.5\n' "$ok"
 bed "$T/norows" "$floor" '' "$ok"
 bed "$T/failed" "$floor" '0\t0.5\t0.5\t0.5\t0.1\n' \
   '# status=failed at t=0: example\n'
-bed "$T/overlap" '' '4\t0.5\t0.5\t0.5\t0.1\n5\t0.5\t0.5\t0.52\t0.1\n' "$ok"
-bed "$T/same" '' '4\t0.5\t0.5\t0.5\t0.1\n5\t0.5\t0.5\t0.5\t0.1\n' "$ok"
 bed "$T/outside" "$floor" '7\t0.5\t0.5\t-0.5\t0.1\n' "$ok"
 bed "$T/late" '# t=1\n' '0\t0.5\t0.5\t0.5\t0.1\n' "$ok"
 sed -i "/# t=0/d" "$T/late"
@@ -161,10 +159,6 @@ check 'a full log: status, what is wrong, the bed' test "$status" = 1 \
   -a "$(grep -c 'full: No space left.*goes on' "$T/err")" = 1 -a \
   "$(tail -n 1 "$T/err")" = 'settle: /dev/full: No space left on device' -a \
   "$(tail -n 1 "$T/out")" = '# status=ok'
-refuse 'overlapping start' 3 "$T/overlap: spheres 4 and 5 .*expected" \
-  settle --scene "$T/overlap"
-refuse 'spheres in one place' 3 "$T/same: spheres 4 and 5" \
-  settle --scene "$T/same"
 refuse 'sphere outside a wall' 3 "$T/outside: sphere 7 .*wall 1" \
   settle --scene "$T/outside"
 refuse 'sphere outside an option'"'"'s wall' 3 "$T/good: sphere 0 .*wall 1" \

@@ -26,6 +26,7 @@
 #include "measure/network.h"
 #include "measure/radius.h"
 #include "model/bed_check.h"
+#include "model/relax.h"
 #include "program/run_watch.h"
 #include "steppers/chebyshev.h"
 #include "steppers/merson.h"
@@ -268,6 +269,26 @@ static int make_run_watch(const struct sample *s) {
 static int make_crowd(const struct sample *s) {
   struct bed_crowd c;
   return bed_find_crowd(s->scene.period, &s->bed, &c);
+}
+
+/* The same spheres again, which overlap. */
+static int push_apart(const struct sample *s) {
+  struct bed b;
+  const size_t stop = failing;
+  failing = 0;
+  if (bed_copy(&b, &s->bed) != GSL_SUCCESS)
+    abort();
+  calls = 0;
+  failing = stop;
+  const struct similarity units = similarity_of(0.1, 1, 9.81);
+  struct relax_report r = {.passes = 99};
+  const int status =
+      relax_bed(&s->scene, &units, &(struct relax_limits){10, 1, 1000}, &b, &r);
+  failing = 0;
+  CHECK((status == GSL_SUCCESS) == (r.pairs > 0));
+  CHECK((status == GSL_SUCCESS) == (b.x[2] != s->bed.x[2]));
+  bed_free(&b);
+  return status;
 }
 
 /* --- what is measured ------------------------------------------------------*/
@@ -515,6 +536,7 @@ int main(void) {
     few.bed.x[3 * i] = few.bed.x[3 * i + 1] = 0.5;
     few.bed.x[3 * i + 2] = 0.05 + 0.15 * (double)i;
   }
+  check_each("pushed apart", push_apart, &few, 5);
   check_each("volume", find_volume, &few, 10);
   check_each("sampled volume", sample_volume, &few, 1);
   check_each("area", find_area, &few, 10);

@@ -167,8 +167,9 @@ done
 "$B/settle" --count 8 --time 0 >"$T/start"
 awk -F '\t' -v OFS='\t' '/^[0-9]/ && !done {$4 = 0.03; done = 1} {print}' \
   "$T/start" >"$T/half"
-run settle --scene "$T/half" --time 0.02
-warned 1 "t=0: sphere 0 overlaps by 0.70 radii.*$(page Penetration)"
+run settle --scene "$T/half" --time 0.02 --kappa 40
+warned 2 "t=0: sphere 0 overlaps by 0.70 radii.*$(page Penetration)" \
+  "$(page 'The cut at lmax')"
 
 # --- energy -------------------------------------------------------------------
 run settle "${elastic[@]}" --method rkc --step 1e-3 --time 1
