@@ -16,9 +16,15 @@ static long id_offset(const struct bed *b) {
   return 1 - least;
 }
 
-/* A box around all spheres, with a diameter to spare. */
-static void box_of(const struct bed *b, double box[6]) {
+/* The cell of periodic axes; else a box around all spheres, with a diameter to
+   spare. */
+static void box_of(const struct bed *b, const double period[3], double box[6]) {
   for (size_t k = 0; k < 3; k++) {
+    if (period[k] > 0) {
+      box[2 * k] = 0;
+      box[2 * k + 1] = period[k];
+      continue;
+    }
     box[2 * k] = GSL_POSINF;
     box[2 * k + 1] = GSL_NEGINF;
     for (size_t i = 0; i < b->n; i++) {
@@ -35,9 +41,10 @@ static void box_of(const struct bed *b, double box[6]) {
    its spring, as sqrt(kappa F0/m). */
 static double fixed_step(const struct scene *s, const struct bed *b) {
   const struct scene paper = scene_default();
-  double m = b->m[0];
-  for (size_t i = 1; i < b->n; i++)
-    m = GSL_MIN(m, b->m[i]);
+  double m = GSL_POSINF;
+  for (size_t i = 0; i < b->n; i++)
+    if (!bed_is_fixed(b, i))
+      m = GSL_MIN(m, b->m[i]);
   const struct contact_law *l = &s->law, *p = &paper.law;
   double share = sqrt(p->kappa * p->f0 * m / (l->kappa * l->f0));
   if (scene_has_friction(s))
@@ -51,27 +58,37 @@ static void put(FILE *out, size_t count, const double *x) {
   numbers_write(out, ' ', count, x);
 }
 
+static const char *boundary(const struct scene *s, int axis) {
+  return s->period[axis] > 0 ? "p" : "s";
+}
+
 static void write_scene(FILE *out, const struct settings *set,
                         const struct bed *b) {
   const struct scene *s = &set->scene;
   const struct contact_law *l = &s->law;
   const double step = fixed_step(s, b), skin = 4.5 * set->travel / l->kappa;
   const double g = sqrt(vec3_dot(s->gravity, s->gravity));
+  const char *moving = b->fixed ? "moving" : "all";
   fprintf(out,
           "# Scene of start.tsv by settle " DEM_VERSION " for settle-lammps, a "
           "LAMMPS with the\n# contact law of the paper: pair_style dem and fix "
           "dem/walls.\nunits si\natom_style sphere\n# each rank computes the "
           "pairs of its own spheres\nnewton off\n# columns: a bed is "
           "settled by gravity, and slices of it would fill one by one\n"
-          "processors * * 1\n# a box that follows the spheres loses none\n"
-          "boundary s s s\ncomm_modify vel yes\nread_data bed.data\n"
+          "processors * * 1\n# periodic (p), else a box that follows the "
+          "spheres and loses none\n"
+          "boundary %s %s %s\ncomm_modify vel yes\nread_data bed.data\n"
           "# spheres may go half of this before pairs are looked for again\n"
-          "neighbor");
+          "neighbor",
+          boundary(s, 0), boundary(s, 1), boundary(s, 2));
   put(out, 1, &skin);
   fprintf(out,
-          " bin\nneigh_modify delay 0 every 1 check yes\n"
+          " bin\nneigh_modify delay 0 every 1 check yes\n%s"
           "# model F0 kappa psi e phi vmin lmax rolling lever\n"
           "pair_style dem %s",
+          b->fixed ? "group moving type 1\ngroup fixed type 2\n"
+                     "neigh_modify exclude group fixed fixed\n"
+                   : "",
           scene_models[s->model].name);
   put(out, 8,
       (double[]){l->f0, l->kappa, l->psi, l->restitution, l->friction, l->vmin,
@@ -80,23 +97,24 @@ static void write_scene(FILE *out, const struct settings *set,
           " %d\npair_coeff * *\n# px py pz nx ny nz r of each: a "
           "plane with its outward normal, or where r > 0\n# a cylinder "
           "with its axis\n"
-          "fix walls all dem/walls",
-          l->lever == LEVER_CONTACT);
+          "fix walls %s dem/walls",
+          l->lever == LEVER_CONTACT, moving);
   for (size_t k = 0; k < s->walls_count; k++) {
     put(out, 3, s->walls[k].point);
     put(out, 3, s->walls[k].normal);
     put(out, 1, &s->walls[k].radius);
   }
-  fprintf(out, "\nfix gravity all gravity");
+  fprintf(out, "\nfix gravity %s gravity", moving);
   put(out, 1, &g);
   fprintf(out, " vector");
   put(out, 3, g > 0 ? s->gravity : (double[]){0, 0, -1});
   fprintf(out,
-          "\nfix move all nve/sphere\n"
+          "\nfix move %s nve/sphere\n"
           "# The paper's bed keeps its solid fraction up to a fixed step of "
           "2.5e-5 s; at 1e-4 s\n# it is denser by 0.007, without a sign of it. "
           "The step scales as m vmin/(phi F0)\n# and sqrt(m/(kappa F0)), with "
-          "the mass of the lightest sphere.\ntimestep");
+          "the mass of the lightest sphere.\ntimestep",
+          moving);
   put(out, 1, &step);
   /* read by the host */
   fprintf(out, "\n# start, end (s), tolerance (m/s), first step (s), longest "
@@ -125,12 +143,9 @@ static void write_run(FILE *out, const struct settings *set,
 
 void export_lammps(const char *folder, const struct settings *s,
                    const struct bed *b, const struct bed_header *header) {
-  const double *period = s->scene.period;
-  if (period[0] > 0 || period[1] > 0 || period[2] > 0)
-    die(EXIT_USAGE, "--export-lammps: not with --periodic");
-  for (size_t i = 0; i < b->n; i++)
-    if (bed_is_fixed(b, i))
-      die(EXIT_USAGE, "--export-lammps: not with spheres that are fixed");
+  if (s->integrate.hmax > 0)
+    die(EXIT_USAGE, "--hmax %g: expected none beside --export-lammps",
+        s->integrate.hmax);
   if (!(s->travel > 0))
     die(EXIT_USAGE,
         "--travel 0: --export-lammps needs a limit, which tells how "
@@ -143,7 +158,7 @@ void export_lammps(const char *folder, const struct settings *s,
   output_commit(&file);
   output_open_in(&file, folder, "bed.data");
   double box[6];
-  box_of(b, box);
+  box_of(b, s->scene.period, box);
   lammps_data_write(file.stream, "settle " DEM_VERSION, "", b, id_offset(b),
                     box);
   output_commit(&file);

@@ -8,8 +8,8 @@
 
 /* Writes into the folder: start.tsv, the bed; bed.data, the same for read_data;
    in.scene, input that sets the scene up, and in.run, input that runs it with
-   a fixed step. Exits with one line where the scene has more than walls and
-   moving spheres, or a file cannot be written. */
+   a fixed step. Exits with one line where travel has no limit or a file cannot be
+   written. */
 void export_lammps(const char *folder, const struct settings *s,
                    const struct bed *b, const struct bed_header *header);
 

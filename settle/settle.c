@@ -69,6 +69,28 @@ static void check_resume(const struct option_spec *options) {
   }
 }
 
+/* settle-lammps takes rkc's steps with its usual control, and has options of
+   its own for what a run writes. */
+static void take_method_of_export(struct settings *s,
+                                  struct option_spec *options) {
+  static const char *const others[] = {
+      "frames", "log",    "stats",  "output",     "checkpoint",
+      "every",  "resume", "abstol", "reltol",     "control",
+      "step",   "pairs",  "kernel", "until-rest", NULL};
+  for (const char *const *name = others; *name; name++)
+    if (option_find(options, *name)->given)
+      die(EXIT_USAGE, "--%s: expected none beside --export-lammps", *name);
+  struct option_spec *method = option_find(options, "method");
+  if (!method->given)
+    s->integrate.method = "rkc";
+  else if (strcmp(s->integrate.method, "rkc"))
+    die(EXIT_USAGE,
+        "--method %s: --export-lammps is for settle-lammps, whose method is "
+        "rkc",
+        s->integrate.method);
+  method->given = true; /* as a scene's own is not for it */
+}
+
 static void check_checkpoint(const struct settings *s,
                              struct option_spec *options) {
   if (!s->checkpoint) {
@@ -218,8 +240,8 @@ int main(int argc, char **argv) {
   s.all_pairs = !strcmp(s.pairs, pair_searches[ALL]);
   struct checkpoint from = {0};
   struct setup setup = {&s, options, &bed, &header, NULL};
-  if (s.lammps && !s.integrate.method)
-    s.integrate.method = "rkc"; /* the host's */
+  if (s.lammps)
+    take_method_of_export(&s, options);
   if (s.resume) {
     check_resume(options);
     checkpoint_open(&from, s.resume, &setup, &setup.order);

@@ -32,6 +32,16 @@ static void shake(struct bed *b, gsl_rng *rng, bool equal) {
   }
 }
 
+/* Every seventh sphere at rest for good. */
+static void make_obstacles(struct bed *b) {
+  CHECK(bed_fix_none(b) == GSL_SUCCESS);
+  for (size_t i = 0; i < N; i += 7) {
+    b->fixed[i] = true;
+    for (size_t k = 0; k < 3; k++)
+      b->v[3 * i + k] = b->w[3 * i + k] = 0;
+  }
+}
+
 static bool runs(const char *command) {
   const bool done = system(command) == 0;
   if (!done)
@@ -96,7 +106,7 @@ static void compare(struct scene *s, const struct bed *b, const char *options) {
       for (size_t i = 0; i < N; i++)
         for (size_t k = 0; k < stride; k++) {
           const double *of = k < 3 ? places.x : k < 6 ? places.v : places.w;
-          const double want = of[3 * i + k % 3];
+          const double want = bed_is_fixed(b, i) ? 0 : of[3 * i + k % 3];
           most[k / 3] = GSL_MAX(most[k / 3], fabs(want));
           worst = GSL_MAX(worst,
                           fabs(got[stride * i + k] - want) / (1 + fabs(want)));
@@ -116,10 +126,13 @@ static void write_bed(const struct bed *b) {
   char path[128];
   snprintf(path, sizeof path, "%s/bed", folder);
   FILE *out = fopen(path, "w");
-  const struct bed_header none = {0};
-  bed_write_frame(out, &none, b, true);
+  struct bed_header h = {0};
+  CHECK(bed_header_add(&h, "format", "bed-1") == GSL_SUCCESS);
+  CHECK(bed_header_add(&h, "base", "1,1") == GSL_SUCCESS);
+  bed_write_frame(out, &h, b, true);
   bed_write_status(out, "ok");
   CHECK(fclose(out) == 0);
+  bed_header_free(&h);
 }
 
 int main(void) {
@@ -141,18 +154,25 @@ int main(void) {
     bool equal;
     enum contact_lever lever;
     double rolling;
+    bool around; /* x and y are periodic, and some spheres are obstacles */
     const char *options;
-  } cases[] = {{SCENE_ROTATION, true, LEVER_PAPER, 0, "--model rotation"},
-               {SCENE_ROTATION, false, LEVER_CONTACT, 0.1,
+  } cases[] = {{SCENE_ROTATION, true, LEVER_PAPER, 0, false,
+                "--model rotation"},
+               {SCENE_ROTATION, false, LEVER_CONTACT, 0.1, false,
                 "--model rotation --lever contact --rolling 0.1"},
-               {SCENE_FRICTION, false, LEVER_PAPER, 0, "--model friction"},
-               {SCENE_BASIC, false, LEVER_PAPER, 0, "--model basic"}};
+               {SCENE_FRICTION, false, LEVER_PAPER, 0, true,
+                "--model friction --periodic xy"},
+               {SCENE_BASIC, false, LEVER_PAPER, 0, false, "--model basic"}};
   for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
     struct bed bed = {0};
     struct scene s = scene_default();
     gsl_rng_set(rng, 100 + c);
     CHECK(bed_alloc(&bed, N) == GSL_SUCCESS);
     shake(&bed, rng, cases[c].equal);
+    if (cases[c].around) {
+      make_obstacles(&bed);
+      s.period[0] = s.period[1] = 1;
+    }
     s.model = cases[c].model;
     s.law.lever = cases[c].lever;
     s.law.rolling = cases[c].rolling;

@@ -90,6 +90,41 @@ within 'centres by rkc and by the fixed step (m)' "$(paste -d , \
       if (d < 0) d = -d
       if (d > most) most = d } } END { printf "%.9f", most }')" 1e-9 1e-3
 
+# periodic sides and an obstacle, on a floor that is nearly closed
+seq 0 15 | awk '
+  BEGIN { OFS = "\t"; print "# format=bed-1"; print "# base=0.7,0.7"
+          print "id", "x", "y", "z", "r", "m", "vx", "vy", "vz", "fixed" }
+  { moves = $1 != 4
+    print $1, 0.1 + 0.21 * ($1 % 3), 0.1 + 0.21 * (int($1 / 3) % 3),
+      0.1 + 0.2 * int($1 / 9), 0.1, 1, moves * (0.3 - 0.04 * $1), moves * 0.2,
+      0, !moves }
+  END { print "# status=ok" }' >"$T/start"
+around="--scene $T/start --wall 0,0,0,0,0,-1 --periodic xy --time 0.3"
+# shellcheck disable=SC2086
+"$B/settle" --quiet $around --method rkc >"$T/settle.tsv"
+# shellcheck disable=SC2086
+"$B/settle" --quiet $around --export-lammps "$T/around" 2>"$T/err"
+host 2 --stats "$T/s" "$T/around" >"$T/around.tsv"
+check 'periodic sides and an obstacle' test $? = 0
+check 'same spheres, header and columns' cmp -s \
+  <(awk '/^#/ || /^id/ { print; next } { print $1, $5, $6, $NF }' \
+    "$T/around.tsv") \
+  <(awk '/^#/ || /^id/ { print; next } { print $1, $5, $6, $NF }' \
+    "$T/settle.tsv")
+most_off() { # BED BED: the largest difference of a coordinate
+  paste <(grep -v '^[#i]' "$1") <(grep -v '^[#i]' "$2") | awk '
+    { for (k = 2; k <= 4; k++) { d = $k - $(k + NF / 2)
+        if (d < 0) d = -d
+        if (d > most) most = d } } END { printf "%.9f", most }'
+}
+within 'their centres (m)' "$(most_off "$T/around.tsv" "$T/settle.tsv")" 0 1e-4
+within 'spheres that went around' "$(awk '!/^[#i]/ { rows++
+  if ($2 < 0.07 || $3 < 0.07) near++
+  if ($2 < 0 || $2 > 0.7 || $3 < 0 || $3 > 0.7) out++ }
+  END { print rows == 16 && !out ? near : 0 }' "$T/around.tsv")" 1 16
+check 'the obstacle stays' test "$(awk '$1 == "4" { print $2, $3, $4 }' \
+  "$T/around.tsv")" = '0.31 0.31 0.1'
+
 # --- what goes wrong ----------------------------------------------------------
 wrong() { # STATUS PATTERN ARGUMENT...
   timeout 60 "$B/settle-lammps" "${@:3}" >"$T/out" 2>"$T/err" </dev/null
@@ -112,17 +147,24 @@ wrong 3 'expected the variable dem_run' "$T/other"
 cp -r "$T/scene" "$T/lost"
 sed -i 's/^boundary.*/boundary f f f/; s/^fix walls.*//' "$T/lost/in.scene"
 wrong 4 'spheres were lost' "$T/lost"
-"$B/settle" --scene <(printf '%s\n' \
-  $'id\tx\ty\tz\tr\tm\tfixed' $'0\t0\t0\t1\t0.1\t1\t0' \
-  $'1\t0\t0\t0\t0.1\t1\t1' '# status=ok') --export-lammps "$T/none" \
-  2>"$T/err"
-obstacles=$?
-"$B/settle" --travel 0 --export-lammps "$T/none" 2>>"$T/err"
-check 'no limit of travel' test $? = 2 -a "$(grep -c 'needs a limit' \
-  "$T/err")" = 1
-"$B/settle" --periodic x --export-lammps "$T/none" 2>"$T/periodic"
-check 'periodic' test $? = 2 -a "$(grep -c 'not with --periodic' \
-  "$T/periodic")" = 1
-check 'obstacles' test $obstacles = 2 -a "$(grep -c 'not with spheres' \
-  "$T/err")" = 1
+# what the host does not do is refused
+not_exported() { # WORDS OPTION...
+  refused 2 "$1" "$B/settle" --quiet "${@:2}" --export-lammps "$T/none"
+  check "no folder: ${*:2}" test ! -e "$T/none"
+}
+not_exported 'needs a limit' --travel 0
+not_exported 'whose method is rkc' --method merson
+not_exported '--until-rest: expected none beside' --until-rest
+not_exported '--hmax 0.1: expected none beside' --hmax 0.1
+# a bed by another method does not hand its tolerance on
+"$B/settle" --quiet --count 2 --time 0.01 >"$T/multirate"
+"$B/settle" --quiet --scene "$T/multirate" --time 0.02 \
+  --export-lammps "$T/next" 2>"$T/err"
+check 'the tolerance of rkc' grep -q \
+  '^variable dem_run string "0.01 0.02 0.0005 ' "$T/next/in.scene"
+check 'the method in the result' grep -q '^# method=rkc' "$T/next/start.tsv"
+# an error that all ranks meet
+host 2 "$T/broken" >"$T/out"
+check 'an error on two ranks' test $? = 1 -a ! -s "$T/out" -a \
+  "$(grep -c 'settle-lammps: LAMMPS: ERROR: Cannot open' "$T/err")" = 1
 check_done

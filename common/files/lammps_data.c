@@ -16,8 +16,8 @@ void lammps_data_write(FILE *out, const char *by, const char *note,
   static const char axes[] = "xyz";
   fprintf(out, "LAMMPS data file by %s, t = ", by);
   numbers_write(out, ' ', 1, &b->t);
-  fprintf(out, " s%s%s\n\n%zu atoms\n1 atom types\n\n", *note ? "; " : "", note,
-          b->n);
+  fprintf(out, " s%s%s\n\n%zu atoms\n%d atom types\n\n", *note ? "; " : "",
+          note, b->n, b->fixed ? 2 : 1);
   for (int k = 0; k < 3; k++) {
     numbers_write(out, ' ', 2, box + 2 * k);
     fprintf(out, " %clo %chi\n", axes[k], axes[k]);
@@ -27,7 +27,7 @@ void lammps_data_write(FILE *out, const char *by, const char *note,
     const double *x = b->x + 3 * i;
     const double row[] = {2 * b->r[i], density(b->m[i], b->r[i]), x[0], x[1],
                           x[2]};
-    fprintf(out, "%ld 1 ", b->id[i] + id_offset);
+    fprintf(out, "%ld %d ", b->id[i] + id_offset, bed_is_fixed(b, i) ? 2 : 1);
     numbers_write(out, ' ', 5, row);
     fputc('\n', out);
   }

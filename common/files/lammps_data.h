@@ -9,7 +9,8 @@
 
 /* by and note go into the first line, which has one line's room; ids are those
    of the bed plus id_offset, for LAMMPS counts from 1; box: x0 x1 y0 y1 z0 z1
-   (m). Errors stay in ferror(out). */
+   (m). Spheres are of type 1, those that are fixed of type 2. Errors stay in
+   ferror(out). */
 void lammps_data_write(FILE *out, const char *by, const char *note,
                        const struct bed *b, long id_offset,
                        const double box[6]);

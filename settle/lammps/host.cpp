@@ -42,6 +42,8 @@ using LAMMPS_NS::NeighList;
 
 enum { DONE, IO, USAGE, INPUT, INTEGRATION }; /* exit status */
 
+enum { MOVING = 1, FIXED }; /* types of spheres in bed.data */
+
 static int rank;
 static bool finished; /* LAMMPS ends a process where it meets an error */
 
@@ -72,7 +74,7 @@ struct plan {
 };
 
 struct counts {
-  size_t evaluations, accepted, rejected, builds, sums, stopped;
+  size_t evaluations, accepted, rejected, builds, sums;
   double ghosts; /* summed over evaluations */
 };
 
@@ -97,6 +99,7 @@ private:
   struct scene scene;
   size_t stride;
   double skin, cap; /* cap: longest way in a step (m) */
+  bool ghosts;      /* some rank may have some */
   struct rkc_step step;
   struct predictive control;
   /* of own rows; filled: with ghosts */
@@ -146,6 +149,8 @@ Bed::Bed(LAMMPS *l, const plan &p)
   scene.walls_count = walls.size();
   scene.walls = walls.data();
   skin = lammps->neighbor->skin;
+  ghosts = lammps->comm->nprocs > 1 || lammps->domain->xperiodic ||
+           lammps->domain->yperiodic;
   cap = set.travel / scene.law.kappa;
   if (!(set.travel > 0) || skin < 4 * cap)
     die(INPUT, "in.scene: the skin of neighbor must be 4 travels of a step");
@@ -202,7 +207,7 @@ void Bed::list() {
   const Atom *a = lammps->atom;
   const NeighList *l = pair->pairs();
   const size_t n = own();
-  std::vector<uint32_t> i, j;
+  std::vector<uint32_t> i, j, fixed;
   std::vector<size_t> first(n + 1, 0);
   for (int k = 0; k < l->inum; k++)
     first[static_cast<size_t>(l->ilist[k]) + 1] =
@@ -220,6 +225,9 @@ void Bed::list() {
           static_cast<uint32_t>(l->firstneigh[s][c] & NEIGHMASK);
     }
   }
+  for (size_t k = 0; k < n; k++)
+    if (a->type[k] == FIXED)
+      fixed.push_back(static_cast<uint32_t>(k));
   struct rows_layout layout = {};
   layout.count = n;
   layout.ghosts = static_cast<size_t>(a->nghost);
@@ -229,6 +237,8 @@ void Bed::list() {
   layout.i = i.data();
   layout.j = j.data();
   layout.first = first.data();
+  layout.fixed = fixed.data();
+  layout.fixed_count = fixed.size();
   layout.skin = skin;
   if (rows_set(rows, &layout) != GSL_SUCCESS)
     die(IO, "out of memory");
@@ -287,14 +297,14 @@ const double *Bed::with_ghosts(const double *from) {
     vec3_sub(from + i * stride + ROW_X, &reference[3 * i], way);
     furthest2 = std::max(furthest2, vec3_dot(way, way));
   }
-  if (lammps->comm->nprocs == 1)
+  if (!ghosts)
     return from;
   to_lammps(from);
   lammps->comm->forward_comm();
-  const size_t n = own(), ghosts = static_cast<size_t>(lammps->atom->nghost);
-  count.ghosts += static_cast<double>(ghosts);
+  const size_t n = own(), more = static_cast<size_t>(lammps->atom->nghost);
+  count.ghosts += static_cast<double>(more);
   std::copy(from, from + dim(), filled.begin());
-  for (size_t i = n; i < n + ghosts; i++)
+  for (size_t i = n; i < n + more; i++)
     take_row(lammps->atom, i, stride, &filled[i * stride]);
   return filled.data();
 }
@@ -406,6 +416,7 @@ void Bed::integrate() {
       t = set.end;
   }
   to_lammps(y.data());
+  lammps->domain->pbc(); /* as settle writes its places */
 }
 
 /* One number of width columns for each sphere of all ranks, at the root, by the
@@ -438,7 +449,7 @@ std::vector<double> Bed::gathered(size_t width,
 
 /* The bed: the keys of start.tsv with the time that was reached. */
 void Bed::gather(FILE *out) {
-  enum { WIDTH = 12 };
+  enum { WIDTH = 13 };
   const Atom *a = lammps->atom;
   std::vector<double> mine;
   for (int i = 0; i < a->nlocal; i++) {
@@ -448,6 +459,7 @@ void Bed::gather(FILE *out) {
     mine.push_back(a->rmass[i]);
     mine.insert(mine.end(), a->v[i], a->v[i] + 3);
     mine.insert(mine.end(), a->omega[i], a->omega[i] + 3);
+    mine.push_back(a->type[i] == FIXED);
   }
   const std::vector<double> all = gathered(WIDTH, mine);
   if (rank)
@@ -463,9 +475,12 @@ void Bed::gather(FILE *out) {
       fprintf(out, "%s\n", line.c_str());
   fprintf(out, "%s\n", line.c_str()); /* columns */
   const bool spin = line.find("wx") != std::string::npos;
+  const bool fixed = line.find("fixed") != std::string::npos;
   for (size_t k = 0; k < all.size(); k += WIDTH) {
     fprintf(out, "%.0f\t", all[k]);
-    numbers_write(out, '\t', spin ? WIDTH - 1 : WIDTH - 4, &all[k + 1]);
+    numbers_write(out, '\t', spin ? WIDTH - 2 : WIDTH - 5, &all[k + 1]);
+    if (fixed)
+      fprintf(out, "\t%.0f", all[k + WIDTH - 1]);
     fputc('\n', out);
   }
   fputs("# status=ok\n", out);
@@ -482,7 +497,8 @@ void Bed::rates_at_start(const char *path, bool by_lammps) {
     const double m = a->rmass[i], r = a->radius[i];
     mine.push_back(static_cast<double>(a->tag[i]) - set.id_offset);
     for (size_t c = 0; c < stride; c++)
-      mine.push_back(!by_lammps || c < ROW_V ? f1[i * stride + c]
+      mine.push_back(!by_lammps || c < ROW_V || a->type[i] == FIXED
+                         ? f1[i * stride + c]
                      : c < ROW_W             ? a->f[i][c - ROW_V] / m
                                  : a->torque[i][c - ROW_W] / (0.4 * m * r * r));
   }
@@ -507,9 +523,10 @@ void Bed::write_stats(const char *path, double wall_seconds,
     return;
   /* each rank exchanges with its neighbours in x, then in y */
   const int *grid = lammps->comm->procgrid;
+  const int *around = lammps->domain->periodicity;
   int messages = 0;
   for (int k = 0; k < 3; k++)
-    messages += grid[k] > 2 ? 2 : grid[k] > 1;
+    messages += grid[k] > 1 ? (grid[k] > 2 || around[k] ? 2 : 1) : 0;
   FILE *out = fopen(path, "w");
   if (!out)
     die(IO, std::string(path) + ": cannot be written");

@@ -12,6 +12,8 @@ struct rows {
   const struct kernel *kernel;
   struct contact_part part;
   size_t incoming[2]; /* one part: no pair comes in */
+  uint32_t *fixed;    /* ascending */
+  size_t fixed_count;
 };
 
 int rows_alloc(struct rows **out, const struct scene *s, bool equal) {
@@ -44,7 +46,7 @@ static void forget_layout(struct rows *r) {
   struct contact_list *l = &r->list;
   void *arrays[] = {l->radius,   l->mass,    l->push,       l->turn,
                     l->near.i,   l->near.j,  l->near.first, l->wall_first,
-                    l->wall_row, l->wall_id, r->part.sums};
+                    l->wall_row, l->wall_id, r->part.sums, r->fixed};
   for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++)
     free(arrays[k]);
 }
@@ -86,6 +88,8 @@ int rows_set(struct rows *r, const struct rows_layout *layout) {
   l->near.j = copied(layout->j, pairs, sizeof *l->near.j);
   l->near.first = copied(layout->first, n + 1, sizeof *l->near.first);
   l->near.count = pairs;
+  r->fixed = copied(layout->fixed, layout->fixed_count, sizeof *r->fixed);
+  r->fixed_count = layout->fixed_count;
   l->wall_first = malloc((n + 1) * sizeof *l->wall_first);
   l->wall_row = malloc((n * l->walls_count + 1) * sizeof *l->wall_row);
   l->wall_id = malloc((n * l->walls_count + 1) * sizeof *l->wall_id);
@@ -96,12 +100,16 @@ int rows_set(struct rows *r, const struct rows_layout *layout) {
                             .mask = room - 1};
   if (!l->radius || !l->mass || !l->push || !l->turn || !l->near.i ||
       !l->near.j || !l->near.first || !l->wall_first || !l->wall_row ||
-      !l->wall_id || !r->part.sums)
+      !l->wall_id || !r->part.sums || !r->fixed)
     return GSL_ENOMEM;
   l->wall_contacts = 0;
-  for (size_t i = 0; i < n; i++) {
+  for (size_t i = 0, fixed = 0; i < n; i++) {
     contact_list_mass(l, i);
     l->wall_first[i] = l->wall_contacts;
+    if (fixed < r->fixed_count && r->fixed[fixed] == i) {
+      fixed++;
+      continue;
+    }
     for (size_t w = 0; w < l->walls_count; w++)
       if (wall_distance(&l->walls[w], layout->x + 3 * i) - l->radius[i] <=
           l->law.lmax + layout->skin) {
@@ -114,13 +122,25 @@ int rows_set(struct rows *r, const struct rows_layout *layout) {
 }
 
 int rows_rates(const struct rows *r, const double y[], double f[]) {
-  return rates_evaluate(&r->list, r->kernel, y, &(struct rates_to){.dydt = f});
+  const size_t stride = r->list.stride;
+  const int status =
+      rates_evaluate(&r->list, r->kernel, y, &(struct rates_to){.dydt = f});
+  for (size_t k = 0; k < r->fixed_count; k++)
+    memset(f + r->fixed[k] * stride, 0, stride * sizeof *f);
+  return status;
 }
 
 int rows_stage(const struct rows *r, const double y[],
                const struct stage *stage, double out[]) {
-  return rates_evaluate(&r->list, r->kernel, y,
-                        &(struct rates_to){.stage = stage, .out = out});
+  const size_t stride = r->list.stride;
+  const int status =
+      rates_evaluate(&r->list, r->kernel, y,
+                     &(struct rates_to){.stage = stage, .out = out});
+  for (size_t k = 0; k < r->fixed_count; k++) {
+    const size_t at = r->fixed[k] * stride;
+    memcpy(out + at, y + at, stride * sizeof *out);
+  }
+  return status;
 }
 
 void rows_weights(const struct rows *r, double weight[]) {

@@ -25,12 +25,16 @@ size_t rows_stride(const struct rows *r);
 
 /* The spheres: count rows and ghosts after them, and pairs i < j by i, row i's
    from first[i] on (count + 1). Copied. Walls within skin beyond lmax are
-   looked for; x: three numbers for each row. GSL_SUCCESS, GSL_ENOMEM. */
+   looked for; x: three numbers for each row. The rows in fixed, ascending, are
+   obstacles: their rates are zero, and walls do not matter to them. GSL_SUCCESS,
+   GSL_ENOMEM. */
 struct rows_layout {
   size_t count, ghosts;
   const double *x, *radius, *mass;
   const uint32_t *i, *j;
   const size_t *first;
+  const uint32_t *fixed;
+  size_t fixed_count;
   double skin;
 };
 int rows_set(struct rows *r, const struct rows_layout *layout);

@@ -201,6 +201,8 @@ void FixDemWalls::post_force(int) {
     error->all(FLERR, std::string("fix dem/walls: expected pair_style dem"));
   for (int i = 0; i < atom->nlocal; i++)
     for (const struct wall &w : walls) {
+      if (!(atom->mask[i] & groupbit))
+        break;
       const double r = atom->radius[i];
       double n[3], on_sphere[3], turn[3], other[3];
       const double gap = wall_nearest(&w, atom->x[i], n) - r;

@@ -33,9 +33,8 @@ private:
   double largest; /* radius (m) */
 };
 
-/* fix ID all dem/walls PX PY PZ NX NY NZ R ...: planes, and cylinders
-   of the radius R; the law is that of the pair
-   style. */
+/* fix ID GROUP dem/walls PX PY PZ NX NY NZ R ...: planes, and cylinders of the
+   radius R; the law is that of the pair style. */
 class FixDemWalls : public LAMMPS_NS::Fix {
 public:
   FixDemWalls(LAMMPS_NS::LAMMPS *lammps, int count, char **words);
