@@ -17,6 +17,7 @@ SHOWN := bench budget fig4.3 friction gr growth handover hardness \
 SHOWN_AS := \
   mixtures-fraction=mixtures \
   precision-bounce=precision-bounce-150-inelastic-time-evaluations \
+  precision-impacts=impacts \
   precision-rolling=precision-rolling-steps-velocity-step \
   precision-toda=precision-toda-6-long-eigenvalue-evaluations \
   precision-trajectory=precision-trajectory-200-position-evaluations \

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A sphere that slides on the floor until it rolls. Friction is only C^1: at
+/* A sphere that slides on the floor until it rolls, and a block on a slope.
+   Friction is only C^1: at
    the slip speed vmin its second derivative jumps. The error that this causes
    depends on where within a step it happens, so errors are root mean squares
    over MEASURE_STARTS runs. */
@@ -121,6 +122,53 @@ static int run_transition(const struct precision_case *c, const void *reference,
   return GSL_SUCCESS;
 }
 
+/* A block, which does not turn, on two slopes: where half of the friction that
+   it can have holds it, from vmin down to the creep at vmin/2; and where as
+   much again as it can have is missing, so that it goes faster. At rest
+   friction can hold 2 phi/(1 + e^2) of the load. */
+static int run_slope(const struct precision_case *c, const void *reference,
+                     struct precision_result *r) {
+  (void)reference;
+  const double hold = c->law.friction / contact_rebound(&c->law, 0);
+  double error[2];
+  for (size_t k = 0; k < 2 * MEASURE_STARTS; k++) {
+    const bool steep = k % 2;
+    const struct integrate_options o = measure_variant(c->integrate, k / 2);
+    const double slope = atan((steep ? 2 : 0.5) * hold);
+    const double load = c->gravity * cos(slope), rate = hold * load;
+    const struct scene scene = {.model = SCENE_FRICTION,
+                                .law = c->law,
+                                .gravity = {c->gravity * sin(slope), 0, -load}};
+    struct motion *m = NULL;
+    const int status = motion_alloc_over_floor(
+        &m, &scene, radius,
+        (double[]){0, 0, radius + closed_rest_gap(&c->law, load)},
+        (double[]){c->law.vmin, 0, 0}, &o, c->travel);
+    if (status != GSL_SUCCESS)
+      return status;
+    measure_start(r);
+    const char *word = measure_until(m->integrator, c->time, most);
+    measure_stop(r);
+    const double v = integrate_state(m->integrator)[ROW_V];
+    error[steep] = fabs(v - (steep ? c->law.vmin + rate * c->time
+                                   : closed_creep(c->time, c->law.vmin, rate)));
+    if (steep)
+      measure_add(r, m->integrator, dynamics_counts(m->dynamics).evaluations,
+                  error, 2);
+    if (word != measure_ok)
+      r->status = word;
+    motion_free(m);
+  }
+  measure_mean(r);
+  return GSL_SUCCESS;
+}
+
+static void defaults_of_slope(struct precision_case *c) {
+  c->law.lmax = 1;
+  /* in which the speed has come half of the way to vmin/2 */
+  c->time = 0.003;
+}
+
 static void defaults(struct precision_case *c) {
   c->law.lmax = 1;
   c->speed = 1;
@@ -141,3 +189,11 @@ const struct precision_scene scene_transition = {
     .errors = {"error_time", NULL},
     .defaults = defaults,
     .run = run_transition};
+
+const struct precision_scene scene_slope = {
+    .name = "slope",
+    .summary = "a block on a slope: creep where 2 phi/(1 + e^2) holds twice as "
+               "much, and sliding at twice of it",
+    .errors = {"error_creep", "error_sliding", NULL},
+    .defaults = defaults_of_slope,
+    .run = run_slope};

@@ -52,7 +52,8 @@ struct precision_scene {
 
 extern const struct precision_scene scene_bounce, scene_collision,
     scene_restitution, scene_toda_open, scene_toda_closed, scene_rolling,
-    scene_transition, scene_exponential, scene_spring, scene_walton_braun,
-    scene_trajectory;
+    scene_transition, scene_slope, scene_exponential, scene_spring,
+    scene_walton_braun, scene_trajectory;
+extern const struct precision_scene scene_impacts[8];
 
 #endif

@@ -23,6 +23,7 @@ declare -A makes=(
     precision-rolling-steps-velocity-step.svg precision-contrast.svg
     precision-work.md:60
     precision-orders.md:14'
+  [impacts]='impacts.svg'
   [settling]='precision-settling.svg precision-settling.md:18'
   [seeds]='precision-seeds.md:3'
   [trajectories]='precision-trajectory-8-position-evaluations.svg

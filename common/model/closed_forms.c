@@ -177,3 +177,40 @@ int closed_slip_share(double t, double vmin, double rate, double *s) {
   /* 1/(3 s) alone is less than the whole plus 1/3 */
   return find_root(slip_rest, &p, 1 / (3 * (t * rate / vmin + 1)), 1, s);
 }
+
+/* The indefinite integral of 1/rho(u) = (1 + q)/(1 + e^2 q), q = exp(-2 psi u):
+   u - (1 - e^2)/(2 psi) ln(1 + e^2 q)/e^2. */
+static double rebound_integral(const struct contact_law *c, double u) {
+  const double e2 = c->restitution * c->restitution, x = -2 * c->psi * u;
+  double part;
+  if (x > 0 && e2 > 0) /* without overflow */
+    part = (x + log(exp(-x) + e2)) / e2;
+  else
+    part = e2 > 0 ? log1p(e2 * exp(x)) / e2 : exp(x);
+  return u - (1 - e2) / (2 * c->psi) * part;
+}
+
+double closed_impulse(const struct contact_law *c, double v0, double v1) {
+  return rebound_integral(c, v0) - rebound_integral(c, -v1);
+}
+
+int closed_slip(double slip, double vmin, double braked, double *left) {
+  double rest = braked - fmax(0, slip - vmin), share = 0;
+  if (!(slip >= 0 && braked >= 0))
+    return GSL_EDOM;
+  if (rest <= 0 || slip == 0) {
+    *left = slip > 0 ? slip - braked : 0;
+    return GSL_SUCCESS;
+  }
+  if (slip < vmin)
+    rest += closed_slip_time(slip / vmin, vmin, 1);
+  const int status = closed_slip_share(rest, vmin, 1, &share);
+  if (status == GSL_SUCCESS)
+    *left = share * vmin;
+  return status;
+}
+
+double closed_creep(double t, double vmin, double rate) {
+  const double w = M_SQRT1_2 / 2 * exp(-1.5 * rate * t / vmin);
+  return vmin * (0.5 + M_SQRT3 * w / sqrt(1 + 4 * w * w));
+}
