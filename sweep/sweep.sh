@@ -363,6 +363,46 @@ stored() { # DIR N: its line into $line, if the run was this one
   { read -r key && read -r line; } 2>/dev/null <"$1/$2.row" || return 1
   [[ $key == "$version ${commands[$2]}" ]] || return 1
 }
+# What DIR has of any run, by its command without the number of the run, into
+# known: a row may have moved, and what other options made is kept in a file,
+# others, whose keys are in shelved.
+recall() { # DIR
+  local place key line
+  while read -r place && IFS= read -r key && IFS= read -r line; do
+    known[$key]=$line
+    [[ $place != */others ]] || shelved[$key]=1
+  done < <(find "$1" -maxdepth 1 \( -name '*.row' -o -name others \) \
+    -exec awk 'FNR % 2 { sub(/--run [0-9]+ -- /, "-- "); key = $0; next }
+      { print FILENAME; print key; print }' {} +)
+}
+of_any_number() { # N: its key in known
+  printf -v key '%s' "$version ${commands[$1]/--run $1 -- /-- }"
+}
+# Puts aside in DIR what is known of no run of the table; aside: how many of
+# them are new there.
+put_aside() { # DIR
+  local n key
+  local -A wanted
+  for ((n = 1; n <= runs; n++)); do
+    of_any_number $n
+    wanted[$key]=1
+  done
+  for key in "${!known[@]}"; do
+    [[ -z ${wanted[$key]-} ]] || continue
+    [[ -n ${shelved[$key]-} ]] || aside=$((aside + 1))
+    printf '%s\n%s\n' "$key" "${known[$key]}"
+  done >"$1/others.$HOSTNAME.$$" && mv "$1/others.$HOSTNAME.$$" "$1/others"
+}
+# Its line into $line, if it was run, under whatever number; a bed that is kept
+# has the number that it had.
+known_line() { # DIR N
+  local key
+  if stored "$1" "$2"; then return; fi
+  of_any_number "$2"
+  [[ -z $keep && -n ${known[$key]-} ]] || return 1
+  line=$2$'\t'${known[$key]#*$'\t'}
+  stays "$2" && store "$1" "$2" "$line"
+}
 stays() { # N: whether $line needs no other try
   local status
   IFS=$'\t' read -r _ status _ <<<"$line"
@@ -519,7 +559,7 @@ sweep_all() {
     die 2 "--measure '${measures[-1]}': $message"
   fi
   local -a cells=() line_of=() todo=() open=() numbers=()
-  local -A commands
+  local -A commands known shelved
   IFS= read -r header <"$T/runs"
   header+=$'\tstatus'
   for k in "${!names[@]}"; do
@@ -572,8 +612,14 @@ sweep_all() {
   group='' job=''
   [[ ! -t 2 || -n $quiet ]] || shows=1
   printf '%s\n' "$header"$'\tmessage' || written
+  local aside=0
+  recall "$work"
+  put_aside "$work" || die 1 "$work: a result could not be stored"
+  ((aside == 0)) || [[ -n $quiet ]] ||
+    printf 'sweep: %s: %d results are of other options or another version %s\n' \
+      "$work" $aside 'and are not used; they stay there' >&2
   for ((n = 1; n <= runs; n++)); do
-    if stored "$work" $n && stays $n; then
+    if known_line "$work" $n && stays $n; then
       take "$line"
     else
       rm -f "$work/$n.row"

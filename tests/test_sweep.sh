@@ -161,9 +161,26 @@ printf 'seed\tfriction\n1\t0.3\n2\t0\n3\t-\n4\t-\n' >more.tsv
 sweeps 0 'a table that has grown' --settle "$tiny" --work w more.tsv
 check 'what changed is run again, the same is not' test \
   "$(cut -f 4 out | cut -c 1 | tail -n 4 | tr '\n' ' ')" = '0 9 9 0 '
-sweeps 0 'another measure' --settle "$tiny" --work w --measure rest more.tsv
+check 'what is not used is said' test "$(wc -l <err)" = 1 -a \
+  "$(grep -c 'w: 1 results are of other options' err)" = 1
+printf 'seed\tfriction\n7\t-\n2\t0\n1\t0.3\n1\t0.2\n' >moved.tsv
+sweeps 0 'rows that have moved' --settle "$tiny" --work w moved.tsv
+check 'only a new one is run, and one that is wanted again is there' test \
+  "$(cut -f 4 out | cut -c 1 | tail -n 4 | tr '\n' ' ')" = '0 9 0 9 '
+sed -i '2s/\t0\./\t8./' w/1.row
+sweeps 0 'another measure' --settle "$tiny" --work w --measure rest moved.tsv
 check 'all is run again' test "$(cell 2 status out)" = 0 -a \
   "$(head -n 1 out | cut -f 4-5)" = $'t\tkinetic'
+sweeps 0 'the measure of before' --settle "$tiny" --work w moved.tsv
+check 'its results were kept' test \
+  "$(cut -f 4 out | cut -c 1 | tail -n 4 | tr '\n' ' ')" = '8 9 0 9 '
+sweeps 0 'beds that are kept' --settle "$tiny" --work k --keep kept runs.tsv
+sed -i '2s/\t0\./\t9./' k/*.row
+printf 'seed\tfriction\n2\t0\n1\t0.2\n3\t-\n' >swapped.tsv
+sweeps 0 'have the numbers of their runs' --settle "$tiny" --work k \
+  --keep kept swapped.tsv
+check 'so what has moved is run again' test \
+  "$(cut -f 4 out | cut -c 1 | tail -n 3 | tr '\n' ' ')" = '0 0 9 '
 mkdir -p busy
 (
   flock 8
@@ -209,14 +226,21 @@ if command -v parallel >/dev/null && parallel --version 2>/dev/null |
   export HOME=$T # where it notes what it knows of hosts
   sweeps 0 'GNU parallel' --settle "$tiny" --jobs 2 --parallel runs.tsv
   check 'the same table' cmp -s out three
-  # a host that is reached by a command in place of ssh
-  printf '#!/bin/bash\necho x >>%q/reached\nwhile [[ $1 != host ]]; do shift; done
-shift\n[[ $1 != -- ]] || shift\nbash -c "$*"\n' "$T" >ssh
+  # hosts that are reached by a command in place of ssh
+  printf '#!/bin/bash\nwhile [[ $1 != host? ]]; do shift; done
+echo $1 >>%q/reached\nshift\n[[ $1 != -- ]] || shift\nbash -c "$*"\n' \
+    "$T" >ssh
   chmod +x ssh
-  PARALLEL_SSH=$T/ssh sweeps 0 'on a host' --settle "$tiny" --jobs 2 \
-    --sshlogin 2/host runs.tsv
-  check 'the same table from the host' cmp -s out three
-  check 'it was reached' test -s reached
+  PARALLEL_SSH=$T/ssh sweeps 0 'on hosts' --settle "$tiny" --jobs 1 \
+    --sshlogin 1/host1,1/host2 --sshlogin : runs.tsv
+  check 'the same table from the hosts' cmp -s out three
+  check 'both were reached' test "$(sort -u reached | tr '\n' ' ')" = \
+    'host1 host2 '
+  # a host that cannot be reached
+  printf '#!/bin/bash\necho no route to host >&2\nexit 255\n' >ssh
+  PARALLEL_SSH=$T/ssh sweeps 1 'no host' --settle "$tiny" \
+    --sshlogin 1/host1 runs.tsv
+  check 'says what is missing' grep -q '3 of 3 runs ended without' err
 else
   echo 'skipped: GNU parallel (it is not installed)'
 fi
