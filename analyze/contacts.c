@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
-#include "geometry/box.h"
+#include "geometry/periodic.h"
 #include "measure/network.h"
 #include "program/shared_options.h"
 #include "tabulate.h"
@@ -67,7 +67,8 @@ static struct measured measure(const struct frames *f,
   m.rigid_spheres = m.degree + 3 * b->n;
   for (size_t i = 0; i < b->n; i++)
     m.inside[i] =
-        !bed_is_fixed(b, i) && (!m.box || box_holds(m.box, b->x + 3 * i));
+        !bed_is_fixed(b, i) &&
+        (!m.box || periodic_in_box(scene->period, m.box, b->x + 3 * i));
   const size_t least = set->least                  ? set->least
                        : scene_has_friction(scene) ? LEAST_ROUGH
                                                    : LEAST_SMOOTH;
@@ -87,7 +88,7 @@ static void measured_free(struct measured *m) {
 static bool within(const struct measured *m, const struct network_contact *c) {
   double x[3];
   network_point(c, m->bed, x);
-  return !m->box || box_holds(m->box, x);
+  return !m->box || periodic_in_box(m->scene->period, m->box, x);
 }
 
 /* In diameters: the mean of both, or the sphere's own at a wall. */
@@ -291,17 +292,24 @@ static void print_network(struct table *table, struct frames *f,
   }
 }
 
-static void print_frame(struct table *table, struct frames *f,
-                        const struct measured *m) {
-  const struct contacts *set = m->set;
+static void print_frame(struct tabulation *t, const void *context) {
+  const struct contacts *set = context;
+  struct frames *f = &t->frames;
+  struct scene scene = frame_scene(f, &t->bed);
+  tabulation_see(t, &set->box);
+  if (f->first)
+    frame_warn_rewritten(f);
+  struct measured m = measure(f, set, &scene, &t->bed);
   if (set->degrees)
-    print_degrees(table, m);
+    print_degrees(&t->table, &m);
   else if (set->overlaps)
-    print_overlaps(table, f, m);
+    print_overlaps(&t->table, f, &m);
   else if (set->network)
-    print_network(table, f, m);
+    print_network(&t->table, f, &m);
   else
-    print_row(table, m);
+    print_row(&t->table, &m);
+  measured_free(&m);
+  scene_free(&scene);
 }
 
 int verb_contacts(int argc, char **argv) {
@@ -368,18 +376,5 @@ int verb_contacts(int argc, char **argv) {
   box_check(&set.box);
   if (set.degrees + set.overlaps + set.network > 1)
     die(EXIT_USAGE, "expected one of --degrees, --overlaps and --network");
-
-  struct tabulation t;
-  tabulation_open(&t, &input, means, argc, argv, operand);
-  while (tabulation_next(&t)) {
-    struct scene scene = frame_scene(&t.frames, &t.bed);
-    tabulation_see(&t, &set.box);
-    if (t.frames.first)
-      frame_warn_rewritten(&t.frames);
-    struct measured m = measure(&t.frames, &set, &scene, &t.bed);
-    print_frame(&t.table, &t.frames, &m);
-    measured_free(&m);
-    scene_free(&scene);
-  }
-  return tabulation_close(&t);
+  return tabulate(&input, means, argc, argv, operand, print_frame, &set);
 }

@@ -5,7 +5,6 @@
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
-#include "geometry/box.h"
 #include "measure/correlation.h"
 #include "program/shared_options.h"
 #include "tabulate.h"
@@ -17,30 +16,35 @@ struct gr {
   size_t bins;
 };
 
-static void print_frame(struct table *table, struct frames *f,
-                        const struct gr *set, const struct bed *b) {
-  double *x = measure_alloc(3 * b->n, sizeof *x), box[6], radius = 0;
-  double *pairs = measure_alloc(2 * set->bins, sizeof *pairs);
-  double *expected = pairs + set->bins;
+static void print_frame(struct tabulation *t, const void *context) {
+  const struct gr *set = context;
+  struct frames *f = &t->frames;
+  struct table *table = &t->table;
+  struct bed *b = &t->bed;
+  double radius = 0;
   for (size_t i = 0; i < b->n; i++)
     radius += b->r[i];
   radius /= (double)b->n;
-  if (set->box.count)
-    memcpy(box, set->box.at, sizeof box);
-  else
-    frame_box(b, set->margin * 2 * radius, box);
-  if (!(box[0] < box[1] && box[2] < box[3] && box[4] < box[5]))
+  tabulation_see(t, &set->box);
+  const struct region region =
+      frame_region(f, b, &set->box, set->margin * 2 * radius);
+  if (!region_valid(&region))
     frame_refuse(f, b, "the centres span no volume, expected a box by --box");
+  if (set->box.count) /* which may be larger than a periodic cell */
+    frame_add_images(f, b, 1, (const double(*)[6])region.box);
+  double *x = measure_alloc(3 * b->n, sizeof *x);
+  double *pairs = measure_alloc(2 * set->bins, sizeof *pairs);
+  double *expected = pairs + set->bins;
   size_t n = 0;
   for (size_t i = 0; i < b->n; i++)
-    if (box_holds(box, b->x + 3 * i))
+    if (region_holds(&region, b->x + 3 * i))
       memcpy(x + 3 * n++, b->x + 3 * i, 3 * sizeof *x);
   const double rmax = set->rmax * 2 * radius;
   struct frames_part part = {f, 0, 1};
   const struct observer told = frames_observer(&part);
-  frame_check(
-      f, b,
-      correlation_count(n, x, box, rmax, set->bins, &told, pairs, expected));
+  frame_check(f, b,
+              correlation_count(n, x, &region, rmax, set->bins, &told, pairs,
+                                expected));
   table_frame(table, TABLE_BLOCKS, "t\tr\tg\tpairs\texpected\tcoordination");
   double around = 0;
   for (size_t k = 0; k < set->bins; k++) {
@@ -49,7 +53,7 @@ static void print_frame(struct table *table, struct frames *f,
     const double shell = 4 * M_PI / 3 *
                          (gsl_pow_3((double)k + 1) - gsl_pow_3((double)k)) *
                          gsl_pow_3(width);
-    around += g * shell * ((double)n - 1) / box_volume(box);
+    around += g * shell * ((double)n - 1) / region_volume(&region);
     table_number(table, b->t);
     table_number(table, ((double)k + 0.5) * set->rmax / (double)set->bins);
     table_number(table, g);
@@ -68,7 +72,7 @@ int verb_gr(int argc, char **argv) {
   bool mean = false;
   /* clang-format off */
   struct option_spec options[] = {
-      BOX_OPTION(set.box, "centres in a box; else in the one they span"),
+      BOX_OPTION(set.box, "centres in a box; else all of them"),
       NUMBER("margin", &set.margin, 0, OPTION_MANY, "diameters",
              "less on every side, without --box"),
       POSITIVE("rmax", &set.rmax, "diameters", "largest distance"),
@@ -90,22 +94,16 @@ int verb_gr(int argc, char **argv) {
           "                over the box: shares of shells that stick\n"
           "                out of it are exact\n"
           "  coordination  mean number of partners up to the bin's end\n"
-          "Add pairs and expected of several beds to average their g. A box\n"
-          "should hold all centres or lie well inside: one that cuts off the\n"
-          "layer at a wall finds too few spheres at its faces, and a g that\n"
-          "is too large.",
+          "Add pairs and expected of several beds to average their g. Without\n"
+          "--box it is the box that the centres span; periodic sides are none\n"
+          "of its faces, and images count as partners. A box should hold all\n"
+          "centres or lie well inside: one that cuts off the layer at a wall\n"
+          "finds too few spheres at its faces, and a g that is too large.",
       .usage = "gr [OPTION...] [FILE...]",
       .example = "settle --model basic | analyze gr > gr.tsv",
       .options = options};
   const int operand = options_parse(&program, argc, argv);
   box_check(&set.box);
 
-  struct tabulation t;
-  tabulation_open(&t, &input, mean, argc, argv, operand);
-  while (tabulation_next(&t)) {
-    tabulation_see(&t, &set.box);
-    frame_warn_open(&t.frames);
-    print_frame(&t.table, &t.frames, &set, &t.bed);
-  }
-  return tabulation_close(&t);
+  return tabulate(&input, mean, argc, argv, operand, print_frame, &set);
 }

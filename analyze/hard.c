@@ -52,8 +52,7 @@ static void compare(struct beds *s, const struct frames *f) {
 static void take(struct beds *s, struct tabulation *t,
                  const struct option_list *given) {
   struct frames *f = &t->frames;
-  struct bed *b = &t->bed;
-  double box[6], united;
+  const struct bed *b = &t->bed;
   if (f->first && s->count++ == s->size) {
     s->size = 2 * s->count;
     s->kr = grown(s->kr, s->size);
@@ -62,19 +61,12 @@ static void take(struct beds *s, struct tabulation *t,
   if (f->first && s->count == 1)
     s->first = frames_copy_header(f);
   compare(s, f);
-  frame_choose_box(f, given, box);
-  box_watch_see(&t->watch, f, b, !given->count, 1, (const double(*)[6])box);
-  const double radius = bed_mean(b, b->r), spheres = (double)b->n;
-  frame_add_images(f, b, 1, (const double(*)[6])box);
-  frame_check_box(f, b, box);
-  struct frames_part part = {f, 0, 1};
-  const struct observer told = frames_observer(&part);
-  frame_check(f, b, volume_union_told(b->n, b->x, b->r, box, &told, &united));
   struct scene scene = frame_scene(f, b);
   assert(s->kr && s->count);
-  s->kr[s->count - 1] = scene.law.kappa * radius;
-  s->share[s->count - 1] = united / box_volume(box);
-  s->spheres = spheres;
+  s->kr[s->count - 1] = scene.law.kappa * bed_mean(b, b->r);
+  s->share[s->count - 1] =
+      frame_union((struct frames_part){f, 0, 1}, given, b, &t->watch);
+  s->spheres = (double)b->n;
   scene_free(&scene);
 }
 

@@ -7,6 +7,8 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include "geometry/box.h"
+#include "geometry/periodic.h"
+#include "geometry/volume.h"
 #include "files/radius_keys.h"
 #include "program/scene_options.h"
 
@@ -119,56 +121,6 @@ void frame_choose_box(const struct frames *f, const struct option_list *given,
     frame_base_box(frames_header(f), box);
 }
 
-/* Images that a frame may have. */
-static const double most_images = 1e7;
-
-/* How often the ball may be moved by whole periods along an axis so that it
-   still reaches into the box: from least to most. */
-static void image_range(double x, double r, double period, double low,
-                        double high, double *least, double *most) {
-  *least = *most = 0;
-  if (!(period > 0))
-    return;
-  *least = floor((low - r - x) / period) + 1;
-  *most = ceil((high + r - x) / period) - 1;
-}
-
-static void put_sphere(struct bed *to, size_t at, const struct bed *from,
-                       size_t i, const double move[2]) {
-  to->id[at] = from->id[i];
-  memcpy(to->x + 3 * at, from->x + 3 * i, 3 * sizeof *to->x);
-  memcpy(to->v + 3 * at, from->v + 3 * i, 3 * sizeof *to->v);
-  memcpy(to->w + 3 * at, from->w + 3 * i, 3 * sizeof *to->w);
-  to->x[3 * at] += move[0];
-  to->x[3 * at + 1] += move[1];
-  to->r[at] = from->r[i];
-  to->m[at] = from->m[i];
-}
-
-/* Puts the spheres and images of them that reach into the box to `to`, unless
-   that is NULL; how many. */
-static size_t put_images(const struct bed *b, const double period[3],
-                         const double box[6], struct bed *to) {
-  size_t count = 0;
-  for (size_t i = 0; i < b->n; i++) {
-    const double *x = b->x + 3 * i;
-    double from[2], until[2];
-    for (int k = 0; k < 2; k++)
-      image_range(x[k], b->r[i], period[k], box[2 * k], box[2 * k + 1],
-                  &from[k], &until[k]);
-    const double images = (until[0] - from[0] + 1) * (until[1] - from[1] + 1);
-    if (!to) {
-      count += images > most_images ? (size_t)most_images : (size_t)images;
-      continue;
-    }
-    for (double a = from[0]; a <= until[0]; a++)
-      for (double c = from[1]; c <= until[1]; c++)
-        put_sphere(to, count++, b, i,
-                   (const double[]){a * period[0], c * period[1]});
-  }
-  return count;
-}
-
 void frame_add_images(const struct frames *f, struct bed *b, size_t count,
                       const double (*boxes)[6]) {
   if (!b->n || !bed_header_get(frames_header(f), "periodic"))
@@ -180,17 +132,29 @@ void frame_add_images(const struct frames *f, struct bed *b, size_t count,
     for (int face = 0; face < 6; face++)
       all[face] = face % 2 ? fmax(all[face], boxes[k][face])
                            : fmin(all[face], boxes[k][face]);
-  const size_t images = put_images(b, scene.period, all, NULL);
-  if ((double)images >= most_images)
+  struct periodic_images images = {0};
+  const int status =
+      periodic_images_in_box(&images, b->n, b->x, b->r, scene.period, all);
+  if (status == GSL_ERANGE)
     frame_refuse(f, b,
                  "a box so much larger than the periodic cell that the "
                  "images in it are too many");
+  frame_check(f, b, status);
   struct bed more;
-  frame_check(f, b, bed_alloc(&more, images));
-  put_images(b, scene.period, all, &more);
+  frame_check(f, b, bed_alloc(&more, images.count));
+  for (size_t k = 0; k < images.count; k++) {
+    const size_t i = images.of[k];
+    more.id[k] = b->id[i];
+    memcpy(more.x + 3 * k, images.x + 3 * k, 3 * sizeof *more.x);
+    memcpy(more.v + 3 * k, b->v + 3 * i, 3 * sizeof *more.v);
+    memcpy(more.w + 3 * k, b->w + 3 * i, 3 * sizeof *more.w);
+    more.r[k] = b->r[i];
+    more.m[k] = b->m[i];
+  }
   more.t = b->t;
   bed_free(b);
   *b = more;
+  periodic_images_free(&images);
   scene_free(&scene);
 }
 
@@ -249,11 +213,34 @@ void box_watch_see(struct box_watch *w, const struct frames *f,
   w->default_ = from_base && !frame_base_box(frames_header(f), unit);
   memcpy(w->box, boxes[0], sizeof w->box);
   spheres_span(b, w->span);
+  if (w->found)
+    return;
+  struct bed all;
+  frame_check(f, b, bed_copy(&all, b));
+  frame_add_images(f, &all, count, boxes);
   for (size_t k = 0; k < count; k++)
-    for (size_t i = 0; i < b->n && !w->found; i++)
+    for (size_t i = 0; i < all.n && !w->found; i++)
       w->found = w->default_
-                     ? box_holds(boxes[k], b->x + 3 * i)
-                     : !box_misses_ball(boxes[k], b->x + 3 * i, b->r[i]);
+                     ? box_holds(boxes[k], all.x + 3 * i)
+                     : !box_misses_ball(boxes[k], all.x + 3 * i, all.r[i]);
+  bed_free(&all);
+}
+
+double frame_union(struct frames_part part, const struct option_list *given,
+                   const struct bed *b, struct box_watch *watch) {
+  struct frames *f = part.frames;
+  double united, box[6];
+  frame_choose_box(f, given, box);
+  box_watch_see(watch, f, b, !given->count, 1, (const double(*)[6])box);
+  frame_check_box(f, b, box);
+  struct bed all;
+  frame_check(f, b, bed_copy(&all, b));
+  frame_add_images(f, &all, 1, (const double(*)[6])box);
+  const struct observer told = frames_observer(&part);
+  frame_check(f, b,
+              volume_union_told(all.n, all.x, all.r, box, &told, &united));
+  bed_free(&all);
+  return united / box_volume(box);
 }
 
 void frame_warn_rewritten(const struct frames *f) {
@@ -262,12 +249,6 @@ void frame_warn_rewritten(const struct frames *f) {
     warn("%s: the radius was rewritten: contacts and forces are those of the "
          "new one, not of radius_dynamics=%g, at which the bed settled",
          f->name, r);
-}
-
-void frame_warn_open(const struct frames *f) {
-  if (f->first && bed_header_get(frames_header(f), "periodic"))
-    warn("%s: periodic sides are taken as open, each sphere is there once",
-         f->name);
 }
 
 void frame_check(const struct frames *f, const struct bed *b, int status) {
@@ -284,16 +265,34 @@ void frame_check(const struct frames *f, const struct bed *b, int status) {
   }
 }
 
-void frame_box(const struct bed *b, double margin, double box[6]) {
-  for (size_t k = 0; k < 3; k++) {
-    double low = GSL_POSINF, high = GSL_NEGINF;
-    for (size_t i = 0; i < b->n; i++) {
-      low = GSL_MIN(low, b->x[3 * i + k]);
-      high = GSL_MAX(high, b->x[3 * i + k]);
-    }
-    box[2 * k] = low + margin;
-    box[2 * k + 1] = high - margin;
+/* Faces of the centres less margin on either side. */
+static void centres_span(const struct bed *b, size_t axis, double margin,
+                         double face[2]) {
+  double low = GSL_POSINF, high = GSL_NEGINF;
+  for (size_t i = 0; i < b->n; i++) {
+    low = GSL_MIN(low, b->x[3 * i + axis]);
+    high = GSL_MAX(high, b->x[3 * i + axis]);
   }
+  face[0] = low + margin;
+  face[1] = high - margin;
+}
+
+struct region frame_region(const struct frames *f, const struct bed *b,
+                           const struct option_list *given, double margin) {
+  struct region region = {0};
+  if (given->count) {
+    memcpy(region.box, given->at, sizeof region.box);
+    return region;
+  }
+  struct scene scene = frame_scene(f, b);
+  for (size_t k = 0; k < 3; k++) {
+    region.period[k] = scene.period[k];
+    region.box[2 * k + 1] = scene.period[k];
+    if (!(scene.period[k] > 0))
+      centres_span(b, k, margin, region.box + 2 * k);
+  }
+  scene_free(&scene);
+  return region;
 }
 
 void *measure_alloc(size_t count, size_t size) {

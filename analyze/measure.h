@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 #include "frames.h"
+#include "geometry/region.h"
 #include "program/command_line.h"
 #include "model/scene.h"
 
@@ -71,8 +72,10 @@ void box_watch_see(struct box_watch *w, const struct frames *f,
    and much wider than what the spheres take up. */
 void box_watch_end(const struct box_watch *w);
 
-/* Says once for each bed that a verb takes its periodic sides as open. */
-void frame_warn_open(const struct frames *f);
+/* The union's share of the box that was given or the frame's own, all images
+   taken in, and the watch over that box. */
+double frame_union(struct frames_part part, const struct option_list *given,
+                   const struct bed *b, struct box_watch *watch);
 
 /* Exits with EXIT_INPUT and one line: the input, the frame's time and why it
    cannot be measured. */
@@ -92,8 +95,10 @@ void frame_check_box(const struct frames *f, const struct bed *b,
    frame that cannot be measured. */
 void frame_check(const struct frames *f, const struct bed *b, int status);
 
-/* Box spanned by the centres less margin (m) on every side. */
-void frame_box(const struct bed *b, double margin, double box[6]);
+/* Where centres are looked at: the box that was given, or all that the centres
+   span, less margin (m) on every side, and all of a periodic axis. */
+struct region frame_region(const struct frames *f, const struct bed *b,
+                           const struct option_list *given, double margin);
 
 void *measure_alloc(size_t count, size_t size); /* zeroed; exits without */
 

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <gsl/gsl_math.h>
 #include "geometry/box.h"
+#include "geometry/periodic.h"
 #include "geometry/volume.h"
 #include "measure/close_packing.h"
 #include "measure/mixture.h"
@@ -97,7 +98,8 @@ static void print_close(struct tabulation *t, const struct bed *b,
 }
 
 /* A frame. */
-static void measure(struct tabulation *t, const struct set *set) {
+static void measure(struct tabulation *t, const void *context) {
+  const struct set *set = context;
   const struct bed *b = &t->bed;
   struct scene scene = frame_scene(&t->frames, b);
   struct network w = {0};
@@ -113,8 +115,9 @@ static void measure(struct tabulation *t, const struct set *set) {
     frame_check(&t->frames, b, mixture_of_radii(b, &m));
   bool *inside = measure_alloc(b->n, sizeof *inside);
   for (size_t i = 0; i < b->n; i++)
-    inside[i] = !bed_is_fixed(b, i) &&
-                (!set->box.count || box_holds(box, b->x + 3 * i));
+    inside[i] =
+        !bed_is_fixed(b, i) &&
+        (!set->box.count || periodic_in_box(scene.period, box, b->x + 3 * i));
   frame_check(&t->frames, b, network_find(&w, &scene, b, GSL_MAX(set->gap, 0)));
   network_mark(&w, set->gap, 0);
   mixture_measure(&m, b, inside, &w);
@@ -199,9 +202,5 @@ int verb_mixture(int argc, char **argv) {
   for (size_t k = 0; k < set.edges.count; k++)
     if (!(set.edges.at[k] > (k ? set.edges.at[k - 1] : 0)))
       die(EXIT_USAGE, "--classes: expected ascending radii above 0");
-  struct tabulation t;
-  tabulation_open(&t, &input, means, argc, argv, operand);
-  while (tabulation_next(&t))
-    measure(&t, &set);
-  return tabulation_close(&t);
+  return tabulate(&input, means, argc, argv, operand, measure, &set);
 }

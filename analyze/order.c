@@ -7,7 +7,6 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include "measure/bond_order.h"
-#include "geometry/box.h"
 #include "program/shared_options.h"
 #include "tabulate.h"
 #include "verbs.h"
@@ -25,14 +24,15 @@ static const char *const class_names[] = {[BOND_DISORDERED] = "disordered",
 
 static void print_spheres(struct table *table, struct frames *f,
                           const struct order *set, const struct bed *b,
-                          const double box[6], const struct bond_order *o) {
+                          const struct region *region,
+                          const struct bond_order *o) {
   table_frame(table, TABLE_BLOCKS,
               "t\tid\tx\ty\tz\tr\tneighbours\tq4\tq6\tqbar4\tqbar6\twbar4\t"
               "wbar6\tclass\tlike");
   for (size_t i = 0; i < b->n; i++) {
     const double *x = b->x + 3 * i;
     frames_tell(f, 0.7 + 0.3 * (double)i / (double)b->n);
-    if (!box_holds(box, x))
+    if (!region_holds(region, x))
       continue;
     const double numbers[] = {o[i].q4,    o[i].q6,    o[i].qbar4,
                               o[i].qbar6, o[i].wbar4, o[i].wbar6};
@@ -52,12 +52,12 @@ static void print_spheres(struct table *table, struct frames *f,
 }
 
 static void print_row(struct table *table, const struct order *set,
-                      const struct bed *b, const double box[6],
+                      const struct bed *b, const struct region *region,
                       const struct bond_order *o) {
   size_t n = 0, class[4] = {0};
   double sum[5] = {0};
   for (size_t i = 0; i < b->n; i++) {
-    if (!box_holds(box, b->x + 3 * i))
+    if (!region_holds(region, b->x + 3 * i))
       continue;
     n++;
     class[bond_order_class(&o[i], set->least)]++;
@@ -81,25 +81,29 @@ static void print_row(struct table *table, const struct order *set,
   table_end_row(table);
 }
 
-static void print_frame(struct table *table, struct frames *f,
-                        const struct order *set, const struct bed *b) {
+static void print_frame(struct tabulation *t, const void *context) {
+  const struct order *set = context;
+  struct frames *f = &t->frames;
+  const struct bed *b = &t->bed;
   struct bond_order *o = measure_alloc(b->n, sizeof *o);
-  double box[6], diameter = 0;
+  double diameter = 0;
   for (size_t i = 0; i < b->n; i++)
     diameter += 2 * b->r[i];
   diameter /= (double)b->n;
+  tabulation_see(t, &set->box);
   struct frames_part part = {f, 0, set->spheres ? 0.7 : 1};
   const struct observer told = frames_observer(&part);
+  const struct region region =
+      frame_region(f, b, &set->box, set->margin * diameter);
+  struct scene scene = frame_scene(f, b);
   frame_check(f, b,
-              bond_order_find(b->n, b->x, set->cutoff * diameter, &told, o));
-  if (set->box.count)
-    memcpy(box, set->box.at, sizeof box);
-  else
-    frame_box(b, set->margin * diameter, box);
+              bond_order_find(b->n, b->x, scene.period, set->cutoff * diameter,
+                              &told, o));
+  scene_free(&scene);
   if (set->spheres)
-    print_spheres(table, f, set, b, box, o);
+    print_spheres(&t->table, f, set, b, &region, o);
   else
-    print_row(table, set, b, box, o);
+    print_row(&t->table, set, b, &region, o);
   free(o);
 }
 
@@ -115,7 +119,8 @@ int verb_order(int argc, char **argv) {
              "qbar6 from which a sphere is ordered"),
       BOX_OPTION(set.box, "spheres with their centre in a box"),
       NUMBER("margin", &set.margin, 0, OPTION_MANY, "diameters",
-             "without --box: centres this far inside the box they span"),
+             "without --box: centres this far inside the box they span, "
+             "whose periodic sides are no faces"),
       {.name = "spheres", .type = OPTION_FLAG, .value = &set.spheres,
        .help = "one block per frame: one row per sphere"},
       MEAN_OPTION(mean),
@@ -148,12 +153,5 @@ int verb_order(int argc, char **argv) {
   const int operand = options_parse(&program, argc, argv);
   box_check(&set.box);
 
-  struct tabulation t;
-  tabulation_open(&t, &input, mean, argc, argv, operand);
-  while (tabulation_next(&t)) {
-    tabulation_see(&t, &set.box);
-    frame_warn_open(&t.frames);
-    print_frame(&t.table, &t.frames, &set, &t.bed);
-  }
-  return tabulation_close(&t);
+  return tabulate(&input, mean, argc, argv, operand, print_frame, &set);
 }

@@ -15,7 +15,6 @@
 #include "measure/radius.h"
 #include "table.h"
 #include "verbs.h"
-#include "geometry/volume.h"
 
 static const char *const measures[] = {"union", "sum", NULL};
 
@@ -62,8 +61,8 @@ static double choose(const struct settings *s, struct frames_part part,
   else if (choice == CONTACT_MEAN)
     status = radius_contact_mean(walls, b->n, b->x, nominal, &r);
   else
-    status =
-        radius_of_fraction(b->n, b->x, s->box, s->fraction, s->sum, &told, &r);
+    status = radius_of_fraction(walls, b->n, b->x, s->box, s->fraction, s->sum,
+                                &told, &r);
   if (status != GSL_EDOM)
     frame_check(part.frames, b, status);
   return r;
@@ -77,15 +76,13 @@ static struct measured measure(const struct settings *s,
   const struct observer told = frames_observer(&part);
   struct measured m = {.r = r};
   const double *box = s->box, volume = box_volume(box);
-  double *radii = measure_alloc(b->n, sizeof *radii);
-  for (size_t i = 0; i < b->n; i++)
-    radii[i] = r;
+  frame_check(
+      f, b, radius_volume(walls, b->n, b->x, box, r, false, &told, &m.united));
   frame_check(f, b,
-              volume_union_told(b->n, b->x, radii, box, &told, &m.united));
+              radius_volume(walls, b->n, b->x, box, r, true, NULL, &m.sum));
   frame_check(f, b, radius_overlaps(walls, b->n, b->x, r, &m.overlaps));
-  m.sum = volume_sum(b->n, b->x, radii, box) / volume;
+  m.sum /= volume;
   m.united /= volume;
-  free(radii);
   return m;
 }
 
@@ -118,30 +115,52 @@ static void print_report(struct table *table, const struct settings *s,
   }
 }
 
-/* Rewrites the frame and reports the effect. */
-static void rewrite(const struct settings *s, struct frames *f,
+/* Rewrites the frame and reports the effect. False where the frame has no such
+   radius, as one without contacts: it stays nominal. */
+static bool rewrite(const struct settings *s, struct frames *f,
                     const struct scene *walls, struct bed *b,
                     struct bed_header *h, double nominal, bool quiet) {
   const double was = b->r[0];
-  const double r =
+  double r =
       choose(s, (struct frames_part){f, 0, 0.9}, s->keep, walls, b, nominal);
-  if (isnan(r)) {
-    char why[80];
-    snprintf(why, sizeof why, "there is no radius for --keep %.40s",
-             s->keep_text);
-    frame_refuse(f, b, why);
-  }
-  if (radius_rewrite(b, h, r, s->keep == NOMINAL ? NULL : s->keep_text) !=
-      GSL_SUCCESS)
+  const bool found = !isnan(r);
+  if (!found)
+    r = nominal;
+  /* said in every frame, since keys stay until they are changed */
+  const char *why = s->keep == NOMINAL ? NULL
+                    : found            ? s->keep_text
+                                       : "nominal";
+  if (radius_rewrite(b, h, r, why) != GSL_SUCCESS)
     die(EXIT_IO, "out of memory");
-  if (quiet)
-    return;
+  if (quiet || !found)
+    return found;
   const struct measured m =
       measure(s, (struct frames_part){f, 0.9, 1}, walls, b, r);
   warn("t=%g: radius %g m, was %g; sum %.5f, union %.5f; %zu overlaps, mean "
        "%.3g and largest %.3g diameters",
        b->t, r, was, m.sum, m.united, m.overlaps.count, m.overlaps.mean,
        m.overlaps.largest);
+  return found;
+}
+
+/* Frames that have no such radius. */
+struct lacking {
+  size_t frames, all;
+  double first; /* t */
+};
+
+static void lacking_end(const struct lacking *l, const struct settings *s,
+                        const char *name) {
+  if (!l->frames)
+    return;
+  char others[60] = "";
+  if (l->frames > 1)
+    snprintf(others, sizeof others, " and %zu frames more", l->frames - 1);
+  if (l->frames == l->all)
+    die(EXIT_INPUT, "%s: t=%g%s: there is no radius for --keep %.40s", name,
+        l->first, others, s->keep_text);
+  warn("%s: t=%g%s: there is no radius for --keep %.40s, nominal is kept", name,
+       l->first, others, s->keep_text);
 }
 
 /* The radius that the dynamics had, all spheres of one. */
@@ -166,6 +185,7 @@ int verb_radius(int argc, char **argv) {
   struct option_list box = {0};
   struct settings s = {.keep_text = "nominal", .fraction = 0.64};
   const char *of = "union";
+  struct lacking lacking = {0};
   bool report = false;
   struct frames_options input = {0};
   bool mean = false;
@@ -194,6 +214,8 @@ int verb_radius(int argc, char **argv) {
           "                radius is 0\n"
           "  touching      the largest without any overlap, walls included\n"
           "  fraction=F    the spheres fill F of the box\n"
+          "A frame without such a radius, as one without contacts, keeps its "
+          "nominal one.\n"
           "The dynamics' radius stays in the header as radius_dynamics; settle "
           "goes on\n"
           "from that. Overlaps are in diameters.",
@@ -228,7 +250,10 @@ int verb_radius(int argc, char **argv) {
                   "largest_overlap");
       print_report(&table, &s, &frames, &walls, &bed, nominal);
     } else {
-      rewrite(&s, &frames, &walls, &bed, &header, nominal, input.quiet);
+      lacking.all++;
+      if (!rewrite(&s, &frames, &walls, &bed, &header, nominal, input.quiet) &&
+          lacking.frames++ == 0)
+        lacking.first = bed.t;
       if (!first)
         bed_write_gap(stdout);
       bed_write_frame(stdout, &header, &bed, turns(&bed));
@@ -237,6 +262,7 @@ int verb_radius(int argc, char **argv) {
     bed_header_free(&header);
   }
   table_close(&table);
+  lacking_end(&lacking, &s, frames.name);
   if (!report)
     bed_write_status(stdout, frames_status(&frames));
   box_watch_end(&watch);

@@ -82,26 +82,14 @@ static bool see(struct rest_watch *w, double t, const struct energies *e) {
   return rest_watch_rests(w, t);
 }
 
-/* Solid fraction of the box that was given, or of the frame's own. */
-static double solid_share(struct frames *f, const struct option_list *given,
-                          const struct bed *b, struct box_watch *boxes) {
-  double united, box[6];
-  frame_choose_box(f, given, box);
-  box_watch_see(boxes, f, b, !given->count, 1, (const double(*)[6])box);
-  frame_check_box(f, b, box);
-  struct frames_part part = {f, 0, 0.7};
-  const struct observer told = frames_observer(&part);
-  frame_check(f, b, volume_union_told(b->n, b->x, b->r, box, &told, &united));
-  return united / box_volume(box);
-}
-
 static void print_frame(struct table *table, struct frames *f,
                         const struct option_list *given, const struct bed *b,
                         struct box_watch *boxes, struct seen *seen) {
   struct scene scene = frame_scene(f, b);
   if (f->first)
     frame_warn_rewritten(f);
-  const double share = solid_share(f, given, b, boxes);
+  const double share =
+      frame_union((struct frames_part){f, 0, 0.7}, given, b, boxes);
   const struct energies e = energies(f, &scene, b);
   const double net = unbalanced(f, &scene, b);
   if (f->first)

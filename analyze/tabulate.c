@@ -20,6 +20,16 @@ void tabulation_see(struct tabulation *t, const struct option_list *given) {
                   (const double(*)[6])given->at);
 }
 
+int tabulate(const struct frames_options *o, bool mean, int argc, char **argv,
+             int first, void (*measure)(struct tabulation *t, const void *set),
+             const void *set) {
+  struct tabulation t;
+  tabulation_open(&t, o, mean, argc, argv, first);
+  while (tabulation_next(&t))
+    measure(&t, set);
+  return tabulation_close(&t);
+}
+
 int tabulation_close(struct tabulation *t) {
   table_close(&t->table);
   box_watch_end(&t->watch);

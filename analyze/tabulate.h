@@ -26,6 +26,12 @@ bool tabulation_next(struct tabulation *t);
    that has spheres. */
 void tabulation_see(struct tabulation *t, const struct option_list *given);
 
+/* All that a verb does with its operands: each frame is measured, with the
+   verb's own set of options; returns EXIT_DONE. */
+int tabulate(const struct frames_options *o, bool mean, int argc, char **argv,
+             int first, void (*measure)(struct tabulation *t, const void *set),
+             const void *set);
+
 /* Ends the table and the output; returns EXIT_DONE. */
 int tabulation_close(struct tabulation *t);
 

@@ -38,6 +38,7 @@ static inline struct lattice lattice_named(const char *name) {
    sphere nearest the middle of it all, deep inside. */
 static inline int lattice_bed(const struct lattice *l, size_t cells,
                               struct bed *b, size_t *centre) {
+  *centre = 0;
   const int status = bed_alloc(b, cells * cells * cells * l->atoms);
   if (status)
     return status;

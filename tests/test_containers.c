@@ -547,6 +547,60 @@ static void test_periodic_pairs(gsl_rng *rng) {
   }
 }
 
+/* Images by trying all moves: those that reach into a box, and whether one of
+   them is in it. */
+static void test_periodic_images(gsl_rng *rng) {
+  for (int k = 0; k < 40; k++) {
+    enum { N = 20, MOST = 8, SPAN = 2 * MOST + 1 };
+    double x[3 * N], r[N], period[3], box[6];
+    struct periodic_images m = {0};
+    for (int c = 0; c < 3; c++) {
+      period[c] = k >> c & 1 ? uniform(rng, 0.6, 1) : 0;
+      box[2 * c] = uniform(rng, -1, 1);
+      box[2 * c + 1] = box[2 * c] + uniform(rng, 0.1, 2);
+    }
+    for (size_t i = 0; i < N; i++) {
+      r[i] = uniform(rng, 0.02, 0.3);
+      for (size_t c = 0; c < 3; c++)
+        x[3 * i + c] = uniform(rng, -1.4, 1.4);
+    }
+    CHECK(periodic_images_in_box(&m, N, x, r, period, box) == GSL_SUCCESS);
+    size_t at = 0;
+    bool same = true;
+    for (uint32_t i = 0; i < N; i++) {
+      bool held = false;
+      for (int image = 0; image < SPAN * SPAN * SPAN; image++) {
+        const int move[3] = {image / SPAN / SPAN - MOST,
+                             image / SPAN % SPAN - MOST, image % SPAN - MOST};
+        bool there = true, inside = true;
+        double place[3];
+        for (size_t c = 0; c < 3; c++) {
+          place[c] = x[3 * i + c] + move[c] * period[c];
+          there = there && (period[c] > 0 || !move[c]) &&
+                  (!(period[c] > 0) || (place[c] + r[i] > box[2 * c] &&
+                                        place[c] - r[i] < box[2 * c + 1]));
+          inside =
+              inside && place[c] >= box[2 * c] && place[c] <= box[2 * c + 1];
+        }
+        held = held || inside;
+        if (!there)
+          continue;
+        same = same && at < m.count && m.of[at] == i && m.radius[at] == r[i] &&
+               !memcmp(m.x + 3 * at, place, sizeof place);
+        at++;
+      }
+      CHECK(periodic_in_box(period, box, x + 3 * i) == held);
+    }
+    CHECK(same && at == m.count);
+    periodic_images_free(&m);
+  }
+  struct periodic_images m = {0};
+  const double x[3] = {0}, r = 0.1, period[3] = {1, 1, 0};
+  const double box[6] = {0, 1e4, 0, 1e4, 0, 1};
+  CHECK(periodic_images_in_box(&m, 1, x, &r, period, box) == GSL_ERANGE);
+  periodic_images_free(&m);
+}
+
 static struct world periodic_world(gsl_rng *rng, enum scene_model model,
                                    size_t n) {
   struct world w = random_world(rng, model, n, 1);
@@ -749,6 +803,7 @@ int main(void) {
   test_translation("multirate", "local", 0, 1e-5);
   test_periodic_momentum(rng);
   test_layer();
+  test_periodic_images(rng);
   gsl_rng_free(rng);
   return check_done();
 }

@@ -136,10 +136,71 @@ within 'profile across periodic sides' "$(paste "$T/a.tsv" "$T/b.tsv" | awk '
 check 'export states the fraction of the cell' grep -q \
   "fraction $("$B/analyze" "$T/periodic.bed" | awk 'NR == 2 {
     print substr($3, 1, 10) }')" "$T/err"
-for verb in gr order; do
-  "$B/analyze" $verb "$T/periodic.bed" > "$T/out" 2> "$T/err"
-  check "$verb says that sides are open" grep -q 'taken as open' "$T/err"
+# the same bed, moved by any vector across its periodic sides: places and box
+moved() { # DX DY: the bed, wrapped by its reader alone
+  awk -v dx="$1" -v dy="$2" -v OFS='\t' '/^[0-9]/ {
+    $2 = sprintf("%.17g", $2 + dx); $3 = sprintf("%.17g", $3 + dy) } { print }' \
+    "$T/periodic.bed"
+}
+same() { # TOLERANCE: two tables, every number, times the larger of it and 1
+  awk -v tol="$1" 'NR == FNR { row[FNR] = $0; n = FNR; next }
+    { if (split(row[FNR], a) != NF) exit 1
+      for (k = 1; k <= NF; k++) {
+        d = a[k] - $k; if (d < 0) d = -d
+        if ($k == a[k]) continue
+        if ($k !~ /^[-+.0-9]/ || !(d <= tol * ($k > 1 || $k < -1 ? ($k < 0 ? -$k : $k) : 1))) exit 1
+      } }
+    END { if (FNR != n || n < 2) exit 1 }' "$T/a.tsv" "$T/b.tsv"
+}
+moved 0.37 -2.11 > "$T/moved.bed"
+while read -r verb; do
+  "$B/analyze" $verb "$T/periodic.bed" > "$T/a.tsv" 2> "$T/err"
+  "$B/analyze" $verb "$T/moved.bed" > "$T/b.tsv" 2>> "$T/err"
+  check "$verb: of a bed that was moved" same 1e-9
+  check "$verb: without a word" [ ! -s "$T/err" ]
+done << 'END'
+fraction --box 0,0.8,0,0.7,0,0.5
+gr
+gr --rmax 5.3
+order
+order --cutoff 2.9
+contacts
+contacts --degrees
+contacts --overlaps
+rest
+mixture --classes 0.05
+mixture --profile 3
+radius --report --keep fraction=0.5
+END
+for verb in contacts mixture order gr rest; do # a box that moves along
+  "$B/analyze" $verb --box 0,0.35,0,0.4,0,0.5 "$T/periodic.bed" > "$T/a.tsv"
+  "$B/analyze" $verb --box 0.37,0.72,-2.11,-1.71,0,0.5 "$T/moved.bed" > "$T/b.tsv"
+  check "$verb: in a box that moves along" same 1e-9
 done
+check 'rest takes the union of all images' [ "$("$B/analyze" rest "$T/periodic.bed" |
+  awk 'NR == 2 { print $6 }')" = "$("$B/analyze" "$T/periodic.bed" |
+  awk 'NR == 2 { print $3 }')" ]
+# fcc without side walls: every sphere within the lattice has 12 neighbours
+awk 'BEGIN { a = 0.2 * sqrt(2)
+  printf "# format=bed-1\n# base=%.17g,%.17g\n# periodic=x y\n", 3 * a, 3 * a
+  print "# radius=0.1\nx\ty\tz"
+  for (i = 0; i < 6; i++) for (j = 0; j < 6; j++) for (k = 0; k < 8; k++)
+    if ((i + j + k) % 2 == 0)
+      printf "%.17g\t%.17g\t%.17g\n", i * a / 2, j * a / 2, 0.1 + k * a / 2
+  print "# status=ok" }' > "$T/fcc.bed"
+"$B/analyze" order --margin 1.3 "$T/fcc.bed" > "$T/tsv"
+within 'fcc: spheres but for two layers above and below' "$(row spheres "$T/tsv")" 72 72
+within 'fcc: neighbours' "$(row neighbours "$T/tsv")" 12 12
+within 'fcc: all of them' "$(row fcc "$T/tsv")" 1 1
+within 'fcc: q4' "$(row q4 "$T/tsv")" 0.190940653 0.190940654
+within 'fcc: q6' "$(row q6 "$T/tsv")" 0.574524259 0.574524260
+# pairs of neighbours: 4 within each of 8 layers by 2, 4 to each next layer
+"$B/analyze" gr --rmax 1.1 --bins 11 "$T/fcc.bed" > "$T/tsv"
+within 'fcc: pairs that touch' "$(awk '{ n += $4 } END { print n }' "$T/tsv")" \
+  $((18 * (8 * 2 + 7 * 4))) $((18 * (8 * 2 + 7 * 4)))
+"$B/analyze" radius --report "$T/fcc.bed" > "$T/tsv"
+within 'fcc: the radius at which spheres touch' \
+  "$(awk '$2 == "touching" { print $3 }' "$T/tsv")" 0.0999999999 0.1000000001
 refused 3 'the header has a cylinder' "$B/analyze" export --format raw --walls "$T/rest.bed"
 # the square inscribed in a tube
 half=$(awk 'BEGIN { printf "%.17g", 0.35 * sqrt(0.5) }')

@@ -355,13 +355,16 @@ static int find_network(const struct sample *s) {
 
 static int find_order(const struct sample *s) {
   struct bond_order order[3];
-  return bond_order_find(s->bed.n, s->bed.x, 0.25, NULL, order);
+  return bond_order_find(s->bed.n, s->bed.x, s->scene.period, 0.25, NULL,
+                         order);
 }
 
 static int find_correlation(const struct sample *s) {
   double pairs[2] = {before}, expected[2] = {before};
-  const int status =
-      correlation_count(s->bed.n, s->bed.x, box, 0.5, 2, NULL, pairs, expected);
+  struct region region = {0};
+  memcpy(region.box, box, sizeof region.box);
+  const int status = correlation_count(s->bed.n, s->bed.x, &region, 0.5, 2,
+                                       NULL, pairs, expected);
   CHECK((status == GSL_SUCCESS) == (pairs[0] != before));
   return status;
 }
@@ -381,8 +384,8 @@ static int find_radii(const struct sample *s) {
    anything. */
 static int find_radius_of_fraction(const struct sample *s) {
   double r = before;
-  const int status =
-      radius_of_fraction(s->bed.n, s->bed.x, box, 0.01, false, NULL, &r);
+  const int status = radius_of_fraction(&s->scene, s->bed.n, s->bed.x, box,
+                                        0.01, false, NULL, &r);
   CHECK((status == GSL_SUCCESS) == (r != before));
   return status;
 }

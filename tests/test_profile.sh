@@ -172,6 +172,11 @@ refuse "cylinder of no radius" 2 '--cylinder' profile --cylinder 0,0,0 "$T/one"
 refuse "no axis" 2 'one of x y z' profile --axis w "$T/one"
 refuse "empty box" 2 '--box' profile --box 0,1,0,1,1,1 "$T/one"
 
+is_line() { # PATTERN: the one line on standard error
+  [ "$(wc -l <"$T/err")" = 1 ] && grep -Eq -e "$1" "$T/err"
+}
+nowhere() { ! grep -q "$@"; }
+
 # --- radius -----------------------------------------------------------------------
 run analyze radius --report "$T/two"
 check "radius: columns" names \
@@ -211,7 +216,21 @@ run settle --quiet --scene "$T/bad" --time 1.01
 check "restart: a bad key" test "$status" = 3
 refuse "radius: a bad key" 3 'radius_dynamics: expected' radius "$T/bad"
 refuse "radius: of two sizes" 3 'one radius' radius "$T/radii"
-refuse "radius: none" 3 'no radius for --keep touching' radius --keep touching "$T/one"
+for keep in touching contact-mean; do
+  run analyze radius --keep $keep "$T/one"
+  check "radius: no $keep in any frame" [ "$status" = 3 ]
+  check "radius: no $keep: says so in one line" is_line "t=0: there is no radius for --keep $keep\$"
+  check "radius: no $keep: what was written is marked" nowhere '^# status=ok' "$T/out"
+done
+# a film that begins without contacts, and whose first frame cannot fill a half
+printf '# format=bed-1\n# radius=0.1\n# t=0\nx\ty\tz\n.2\t.5\t3\n.5\t.5\t3\n\n
+# t=1\nx\ty\tz\n.2\t.5\t.5\n.38\t.5\t.5\n# status=ok\n' >"$T/film"
+run analyze radius --keep contact-mean --quiet "$T/film"
+check "radius: frames without contacts keep theirs" is_line \
+  't=0: there is no radius for --keep contact-mean, nominal is kept$'
+check "radius: all of the film" test "$status" = 0
+check "radius: radii of the film" test \
+  "$(sed -n 's/^# radius=//p' "$T/out" | tr '\n' ' ')" = '0.1 0.09 '
 refuse "radius: unknown" 2 '--keep loose: expected nominal' radius --keep loose "$T/one"
 refuse "radius: all of it" 2 'below 1' radius --keep fraction=1 "$T/one"
 refuse "radius: nothing" 2 'above 0' radius --keep fraction=0 "$T/one"

@@ -64,17 +64,78 @@ static void test_lattice(void) {
   /* fractions: 64 r^3 4 pi/3, and less the lenses once spheres overlap; at the
      walls the box cuts caps of the same size as halves of lenses */
   const double sphere = 64 * 4 * M_PI / 3;
-  CHECK(radius_of_fraction(n, x, unit, 0.3, false, NULL, &r) == GSL_SUCCESS);
+  CHECK(radius_of_fraction(&no_walls, n, x, unit, 0.3, false, NULL, &r) ==
+        GSL_SUCCESS);
   CHECK_CLOSE(r, cbrt(0.3 / sphere), ULPS(16));
   const double want = 0.14, h = 0.125;
   const double cap = M_PI / 3 * (want - h) * (want - h) * (2 * want + h);
   const double united = sphere * gsl_pow_3(want) - 64 * 6 * cap;
-  CHECK(radius_of_fraction(n, x, unit, united, false, NULL, &r) == GSL_SUCCESS);
+  CHECK(radius_of_fraction(&no_walls, n, x, unit, united, false, NULL, &r) ==
+        GSL_SUCCESS);
   CHECK_CLOSE(r, want, ULPS(256));
   const double sum = sphere * gsl_pow_3(want) - 6 * 16 * cap;
-  CHECK(radius_of_fraction(n, x, unit, sum, true, NULL, &r) == GSL_SUCCESS);
+  CHECK(radius_of_fraction(&no_walls, n, x, unit, sum, true, NULL, &r) ==
+        GSL_SUCCESS);
   CHECK_CLOSE(r, want, ULPS(256));
   scene_free(&walls);
+}
+
+/* The same lattice without an end along all axes: 3 contacts for each sphere.
+ */
+static void test_periodic(void) {
+  double x[3 * 64], r = 0;
+  const size_t n = lattice(4, x);
+  const struct scene cell = {.period = {1, 1, 1}};
+  struct radius_overlaps o;
+  for (size_t i = 0; i < 3 * n; i++) /* anywhere along them */
+    x[i] += 0.17 - (double)(i % 5);
+  CHECK(radius_touching(&cell, n, x, &r) == GSL_SUCCESS);
+  CHECK_CLOSE(r, 0.125, ULPS(16)); /* places of up to 4 */
+  CHECK(radius_contact_mean(&cell, n, x, 0.15, &r) == GSL_SUCCESS);
+  CHECK_CLOSE(r, 0.125, ULPS(224));
+  CHECK(radius_overlaps(&cell, n, x, 0.15, &o) == GSL_SUCCESS);
+  CHECK(o.count == 3 * 64);
+  CHECK_CLOSE(o.largest, 0.05 / 0.3, ULPS(64));
+  CHECK_CLOSE(o.mean, 0.05 / 0.3, ULPS(224));
+  /* any cell, and any eight of them */
+  const double sphere = 64 * 4 * M_PI / 3, want = 0.14, h = 0.125;
+  const double cap = M_PI / 3 * (want - h) * (want - h) * (2 * want + h);
+  const double cells[2][6] = {{0, 1, 0, 1, 0, 1}, {-0.3, 1.7, 5, 7, 0.1, 2.1}};
+  for (int k = 0; k < 2; k++)
+    for (int sum = 0; sum < 2; sum++) {
+      const double fraction =
+          sphere * gsl_pow_3(want) - (sum ? 0 : 64 * 6 * cap);
+      CHECK(radius_of_fraction(&cell, n, x, cells[k], fraction, sum, NULL,
+                               &r) == GSL_SUCCESS);
+      CHECK_CLOSE(r, want, ULPS(2048));
+    }
+  /* a sphere and its own image */
+  CHECK(radius_touching(&cell, 1, x, &r) == GSL_SUCCESS);
+  CHECK_CLOSE(r, 0.5, ULPS(16));
+}
+
+/* Work that does not grow as the square of the number: one sphere far from all
+   others, and spheres that would have to be a lump to fill a box below them. */
+static void test_many(void) {
+  enum { N = 8000, SIDE = 20 };
+  double *x = malloc(3 * N * sizeof *x), r = 7;
+  if (!x)
+    abort();
+  CHECK(lattice(SIDE, x) == N);
+  x[0] = -1e9;
+  CHECK(radius_touching(&no_walls, N, x, &r) == GSL_SUCCESS);
+  CHECK_CLOSE(r, 0.5 / SIDE, ULPS(2));
+  const double below[6] = {0, 1, 0, 1, -1, 0}, around[6] = {0, 1, 0, 1, 0, 1};
+  x[0] = x[3 * (SIDE - 1)]; /* two of one place */
+  CHECK(radius_of_fraction(&no_walls, N, x, below, 0.6, false, NULL, &r) ==
+        GSL_EDOM);
+  CHECK(radius_of_fraction(&no_walls, N, x, below, 0.6, true, NULL, &r) ==
+        GSL_SUCCESS);
+  CHECK(r > 0.5 / SIDE);
+  CHECK(radius_of_fraction(&no_walls, N, x, around, 0.9, false, NULL, &r) ==
+        GSL_SUCCESS);
+  CHECK(r > 0.5 / SIDE && r < 0.87 / SIDE); /* sqrt(3)/2 covers all */
+  free(x);
 }
 
 static void test_none(void) {
@@ -87,11 +148,16 @@ static void test_none(void) {
   CHECK(radius_touching(&no_walls, 2, bad, &r) == GSL_EINVAL);
   CHECK(radius_contact_mean(&no_walls, 1, x, 0.1, &r) == GSL_EDOM);
   CHECK(radius_contact_mean(&no_walls, 2, bad, 0.1, &r) == GSL_EINVAL);
-  CHECK(radius_of_fraction(0, x, unit, 0.5, false, NULL, &r) == GSL_EDOM);
-  CHECK(radius_of_fraction(1, x, unit, 1, false, NULL, &r) == GSL_EDOM);
-  CHECK(radius_of_fraction(1, x, unit, 0, true, NULL, &r) == GSL_EDOM);
-  CHECK(radius_of_fraction(1, x, unit, GSL_NAN, true, NULL, &r) == GSL_EDOM);
-  CHECK(radius_of_fraction(2, bad, unit, 0.5, false, NULL, &r) == GSL_EINVAL);
+  CHECK(radius_of_fraction(&no_walls, 0, x, unit, 0.5, false, NULL, &r) ==
+        GSL_EDOM);
+  CHECK(radius_of_fraction(&no_walls, 1, x, unit, 1, false, NULL, &r) ==
+        GSL_EDOM);
+  CHECK(radius_of_fraction(&no_walls, 1, x, unit, 0, true, NULL, &r) ==
+        GSL_EDOM);
+  CHECK(radius_of_fraction(&no_walls, 1, x, unit, GSL_NAN, true, NULL, &r) ==
+        GSL_EDOM);
+  CHECK(radius_of_fraction(&no_walls, 2, bad, unit, 0.5, false, NULL, &r) ==
+        GSL_EINVAL);
   CHECK(radius_overlaps(&no_walls, 2, bad, 0.1, &o) == GSL_EINVAL);
   CHECK(r == 7);
   /* one sphere on a floor; two far apart */
@@ -103,8 +169,8 @@ static void test_none(void) {
   const double outside[3] = {0.5, 0.4, -0.3};
   CHECK(radius_touching(&walls, 1, outside, &r) == GSL_EDOM);
   /* a sphere that reaches beyond the box all around fills it */
-  CHECK(radius_of_fraction(1, one, unit, 0.999999, false, NULL, &r) ==
-        GSL_SUCCESS);
+  CHECK(radius_of_fraction(&no_walls, 1, one, unit, 0.999999, false, NULL,
+                           &r) == GSL_SUCCESS);
   CHECK(r < sqrt(0.25 + 0.36 + 0.49));
   scene_free(&walls);
 }
@@ -138,7 +204,7 @@ static void test_random(void) {
     ok &= CHECK(o.count == 1 && o.mean == o.largest);
     const double f = 0.1 + 0.8 * gsl_rng_uniform(rng);
     for (int sum = 0; sum < 2; sum++) {
-      ok &= CHECK(radius_of_fraction(N, x, unit, f, sum, NULL, &r) ==
+      ok &= CHECK(radius_of_fraction(&no_walls, N, x, unit, f, sum, NULL, &r) ==
                   GSL_SUCCESS);
       for (int i = 0; i < N; i++)
         radii[i] = r;
@@ -182,6 +248,8 @@ static void test_rewrite(void) {
 int main(void) {
   gsl_set_error_handler_off();
   test_lattice();
+  test_periodic();
+  test_many();
   test_none();
   test_random();
   test_rewrite();

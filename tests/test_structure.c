@@ -13,9 +13,11 @@
 #include "check.h"
 #include "measure/correlation.h"
 #include "lattice.h"
+#include "sample.h"
 #include "geometry/vec3.h"
 
 static const double eps = GSL_DBL_EPSILON;
+static const double open[3];
 
 /* Pairs of a block of n^3 points of the simple cubic lattice: those a apart
    along x, b along y, c along z are (n-a)(n-b)(n-c) for each sign and order. */
@@ -25,12 +27,12 @@ static void test_sc_pairs(void) {
   struct bed b;
   size_t centre;
   CHECK(lattice_bed(&l, N, &b, &centre) == GSL_SUCCESS);
-  const double box[6] = {-3.5, 3.5, -3.5, 3.5, -3.5, 3.5};
+  const struct region box = {.box = {-3.5, 3.5, -3.5, 3.5, -3.5, 3.5}};
   double pairs[BINS], expected[BINS], want[BINS] = {0};
   /* bins of 0.1 from 0 to 2.2: sqrt(1), sqrt(2), sqrt(3), sqrt(4) are 1, 1.41,
      1.73, 2; moved by a little so that none is on an edge */
   const double rmax = 2.2 * (1 - 1e-6);
-  CHECK(correlation_count(b.n, b.x, box, rmax, BINS, NULL, pairs, expected) ==
+  CHECK(correlation_count(b.n, b.x, &box, rmax, BINS, NULL, pairs, expected) ==
         GSL_SUCCESS);
   want[10] = 3 * N * N * (N - 1);
   want[14] = 6 * N * (N - 1) * (N - 1);
@@ -48,16 +50,16 @@ static void test_shells(const char *name, size_t count,
   struct bed b;
   size_t centre;
   CHECK(lattice_bed(&l, 6, &b, &centre) == GSL_SUCCESS);
-  const double box[6] = {-9, 9, -9, 9, -9, 9};
+  const struct region box = {.box = {-9, 9, -9, 9, -9, 9}};
   enum { BINS = 200 };
   const double rmax = 2.0001;
   double all[BINS], expected[BINS], sum[BINS] = {0};
   double *rest = calloc(3 * b.n, sizeof *rest);
-  CHECK(correlation_count(b.n, b.x, box, rmax, BINS, NULL, all, expected) ==
+  CHECK(correlation_count(b.n, b.x, &box, rmax, BINS, NULL, all, expected) ==
         GSL_SUCCESS);
   memcpy(rest, b.x, 3 * b.n * sizeof *rest);
   memcpy(rest + 3 * centre, b.x + 3 * (b.n - 1), 3 * sizeof *rest);
-  CHECK(correlation_count(b.n - 1, rest, box, rmax, BINS, NULL, sum,
+  CHECK(correlation_count(b.n - 1, rest, &box, rmax, BINS, NULL, sum,
                           expected) == GSL_SUCCESS);
   for (size_t k = 0; k < BINS; k++) {
     double want = 0;
@@ -76,14 +78,13 @@ static void test_shells(const char *name, size_t count,
    n(n-1)/2, whatever the shells' edges. */
 static void test_expected(void) {
   enum { N = 200, BINS = 37 };
-  const double box[6] = {-0.3, 0.7, 2, 4.5, 0, 0.8};
+  const struct region box = {.box = {-0.3, 0.7, 2, 4.5, 0, 0.8}};
   double x[3 * N], pairs[BINS], expected[BINS], sum = 0, found = 0;
   gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
   for (size_t i = 0; i < 3 * N; i++)
-    x[i] = box[2 * (i % 3)] +
-           (box[2 * (i % 3) + 1] - box[2 * (i % 3)]) * gsl_rng_uniform(rng);
+    x[i] = uniform(rng, box.box[2 * (i % 3)], box.box[2 * (i % 3) + 1]);
   const double diagonal = sqrt(1 + 2.5 * 2.5 + 0.64) * 1.0001;
-  CHECK(correlation_count(N, x, box, diagonal, BINS, NULL, pairs, expected) ==
+  CHECK(correlation_count(N, x, &box, diagonal, BINS, NULL, pairs, expected) ==
         GSL_SUCCESS);
   for (size_t k = 0; k < BINS; k++) {
     sum += expected[k];
@@ -97,8 +98,8 @@ static void test_expected(void) {
   /* without faces in reach: n(n-1)/2 times the shell's share of the box */
   for (size_t i = 0; i < 3 * N; i++)
     x[i] = 5 + 0.01 * gsl_rng_uniform(rng);
-  const double large[6] = {0, 10, 0, 10, 0, 10};
-  CHECK(correlation_count(N, x, large, 2, 2, NULL, pairs, expected) ==
+  const struct region large = {.box = {0, 10, 0, 10, 0, 10}};
+  CHECK(correlation_count(N, x, &large, 2, 2, NULL, pairs, expected) ==
         GSL_SUCCESS);
   CHECK_REL(expected[0], N * (N - 1) / 2. * 4 * M_PI / 3 / 1000, 8 * eps);
   CHECK_REL(expected[1], N * (N - 1) / 2. * 4 * M_PI / 3 * 7 / 1000, 8 * eps);
@@ -106,27 +107,29 @@ static void test_expected(void) {
   gsl_rng_free(rng);
 
   x[4] = GSL_NAN;
-  CHECK(correlation_count(N, x, large, 2, 2, NULL, pairs, expected) ==
+  CHECK(correlation_count(N, x, &large, 2, 2, NULL, pairs, expected) ==
         GSL_EINVAL);
-  CHECK(correlation_count(1, x, large, 2, 2, NULL, pairs, expected) ==
+  CHECK(correlation_count(1, x, &large, 2, 2, NULL, pairs, expected) ==
         GSL_SUCCESS);
   CHECK(pairs[0] == 0 && expected[0] == 0);
-  CHECK(correlation_count(0, x, large, 2, 2, NULL, pairs, expected) ==
+  CHECK(correlation_count(0, x, &large, 2, 2, NULL, pairs, expected) ==
         GSL_SUCCESS);
   CHECK(pairs[0] == 0 && expected[0] == 0);
 }
 
 /* Random points: counts are Poisson's about the expected, to the edge even
    where most of a shell is outside. Chi-squared, two-sided at 1e-4. */
-static void test_random_points(unsigned long seed) {
+static void test_random_points(unsigned long seed, bool periodic) {
   enum { N = 1500, BINS = 40 };
-  const double box[6] = {0, 1, 0, 1, 0, 1.5};
+  const double side = periodic ? 1 : 0;
+  const struct region box = {.box = {0, 1, 0, 1, 0, 1.5},
+                             .period = {side, side, 0}};
   double *x = calloc(3 * N, sizeof *x), pairs[BINS], expected[BINS];
   gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
   gsl_rng_set(rng, seed);
   for (size_t i = 0; i < 3 * N; i++)
-    x[i] = box[2 * (i % 3) + 1] * gsl_rng_uniform(rng);
-  CHECK(correlation_count(N, x, box, 0.6, BINS, NULL, pairs, expected) ==
+    x[i] = box.box[2 * (i % 3) + 1] * gsl_rng_uniform(rng);
+  CHECK(correlation_count(N, x, &box, 0.6, BINS, NULL, pairs, expected) ==
         GSL_SUCCESS);
   double chi2 = 0, all = 0, want = 0;
   for (size_t k = 0; k < BINS; k++) {
@@ -183,7 +186,7 @@ static void test_order(const char *name, size_t neighbours, double q4,
   CHECK(lattice_bed(&l, 6, &b, &centre) == GSL_SUCCESS);
   struct bond_order *o = calloc(b.n, sizeof *o);
   for (int turned = 0; turned < 2; turned++) {
-    CHECK(bond_order_find(b.n, b.x, cutoff, NULL, o) == GSL_SUCCESS);
+    CHECK(bond_order_find(b.n, b.x, open, cutoff, NULL, o) == GSL_SUCCESS);
     const struct bond_order *c = &o[centre];
     CHECK(c->neighbours == neighbours);
     CHECK_CLOSE(c->q4, q4, 1e-9);
@@ -228,7 +231,7 @@ static void test_averages(void) {
     x[i] = gsl_rng_uniform(rng);
   gsl_rng_free(rng);
   const double cutoff = 0.35;
-  CHECK(bond_order_find(N, x, cutoff, NULL, o) == GSL_SUCCESS);
+  CHECK(bond_order_find(N, x, open, cutoff, NULL, o) == GSL_SUCCESS);
   double u[N][N][3];
   bool near[N][N];
   size_t count[N] = {0};
@@ -263,57 +266,175 @@ static void test_averages(void) {
   }
 
   /* no neighbours, one, and the same place twice */
-  CHECK(bond_order_find(2, (double[]){0, 0, 0, 2, 0, 0}, 1, NULL, o) ==
+  CHECK(bond_order_find(2, (double[]){0, 0, 0, 2, 0, 0}, open, 1, NULL, o) ==
         GSL_SUCCESS);
   CHECK(o[0].neighbours == 0 && o[0].q6 == 0 && o[0].qbar6 == 0);
   CHECK(bond_order_class(&o[0], 0.4) == BOND_DISORDERED);
-  CHECK(bond_order_find(2, (double[]){0, 0, 0, 0, 0, -1}, 1, NULL, o) ==
+  CHECK(bond_order_find(2, (double[]){0, 0, 0, 0, 0, -1}, open, 1, NULL, o) ==
         GSL_SUCCESS);
   CHECK(o[0].neighbours == 1);
   CHECK_CLOSE(o[0].q4, 1, 16 * eps);
   CHECK_CLOSE(o[1].qbar6, 1, 16 * eps);
-  CHECK(bond_order_find(2, (double[]){1, 2, 3, 1, 2, 3}, 1, NULL, o) ==
+  CHECK(bond_order_find(2, (double[]){1, 2, 3, 1, 2, 3}, open, 1, NULL, o) ==
         GSL_EDOM);
-  CHECK(bond_order_find(1, (double[]){1, GSL_NAN, 3}, 1, NULL, o) ==
+  CHECK(bond_order_find(1, (double[]){1, GSL_NAN, 3}, open, 1, NULL, o) ==
         GSL_EINVAL);
 }
+
+/* A crystal without an end: cells^3 cells about the origin, periodic along all
+   axes, moved to no particular place. */
+static struct region crystal(const char *name, size_t cells, struct bed *b) {
+  const struct lattice l = lattice_named(name);
+  struct region g = {.box = {0}};
+  size_t centre;
+  CHECK(lattice_bed(&l, cells, b, &centre) == GSL_SUCCESS);
+  for (size_t k = 0; k < 3; k++)
+    g.box[2 * k + 1] = g.period[k] = (double)cells * l.edge[k];
+  for (size_t i = 0; i < 3 * b->n; i++)
+    b->x[i] += 17.3 + 0.21 * (double)(i % 3);
+  return g;
+}
+
+/* Every sphere of it has the neighbourhood that only the deepest of a block
+   has, and every shell is whole. */
+static void test_crystal(const char *name, size_t neighbours, double q4,
+                         double q6, enum bond_class class, size_t count,
+                         const double (*shell)[2]) {
+  enum { BINS = 200 };
+  struct bed b;
+  const struct region g = crystal(name, 3, &b);
+  const double rmax = 2.0001, n = (double)b.n;
+  double pairs[BINS], expected[BINS];
+  struct bond_order *o = calloc(b.n, sizeof *o);
+  CHECK(bond_order_find(b.n, b.x, g.period, 1.2, NULL, o) == GSL_SUCCESS);
+  for (size_t i = 0; i < b.n; i++) {
+    CHECK(o[i].neighbours == neighbours);
+    CHECK_CLOSE(o[i].q4, q4, 1e-9);
+    CHECK_CLOSE(o[i].q6, q6, 1e-9);
+    CHECK_CLOSE(o[i].qbar6, q6, 1e-9);
+    CHECK(bond_order_class(&o[i], 0.4) == class);
+  }
+  CHECK(correlation_count(b.n, b.x, &g, rmax, BINS, NULL, pairs, expected) ==
+        GSL_SUCCESS);
+  for (size_t k = 0; k < BINS; k++) {
+    double want = 0;
+    for (size_t s = 0; s < count; s++)
+      if ((size_t)(shell[s][0] / rmax * BINS) == k)
+        want += n * shell[s][1] / 2;
+    if (!CHECK(pairs[k] == want))
+      fprintf(stderr, "  %s at %g: %g, expected %g\n", name,
+              rmax * (double)k / BINS, pairs[k], want);
+    const double volume =
+        4 * M_PI / 3 * gsl_pow_3(rmax / BINS) * (double)(3 * k * k + 3 * k + 1);
+    CHECK_REL(expected[k], n * (n - 1) / 2 * volume / region_volume(&g), 1e-12);
+  }
+  free(o);
+  bed_free(&b);
+}
+
+/* Beyond half a period and beyond a whole one: all images of others, at 3 those
+   of (2 2 1) and not those of (3 0 0), which are the sphere itself. */
+static void test_all_images(void) {
+  enum { BINS = 34 };
+  struct bed b;
+  const struct region g = crystal("sc", 3, &b);
+  double pairs[BINS], expected[BINS];
+  const double squares[][2] = {{1, 6},  {2, 12}, {3, 8},  {4, 6},   {5, 24},
+                               {6, 24}, {8, 12}, {9, 24}, {10, 24}, {11, 24}};
+  const double rmax = 3.4 * (1 - 1e-6);
+  CHECK(correlation_count(b.n, b.x, &g, rmax, BINS, NULL, pairs, expected) ==
+        GSL_SUCCESS);
+  for (size_t k = 0; k < BINS; k++) {
+    double want = 0;
+    for (size_t s = 0; s < sizeof squares / sizeof *squares; s++)
+      if ((size_t)(sqrt(squares[s][0]) / rmax * BINS) == k)
+        want += 27 * squares[s][1] / 2;
+    CHECK(pairs[k] == want);
+  }
+  /* one sphere of a cell and its own images: a lattice of 6 neighbours each */
+  struct bond_order o;
+  const double x[3] = {7, 8, 9}, period[3] = {1, 1, 1};
+  CHECK(bond_order_find(1, x, period, 1.2, NULL, &o) == GSL_SUCCESS);
+  CHECK(o.neighbours == 6);
+  CHECK_CLOSE(o.q4, 0.7637626158259734, 1e-9);
+  CHECK_CLOSE(o.q6, 0.3535533905932738, 1e-9);
+  bed_free(&b);
+}
+
+struct ideal {
+  const char *name;
+  size_t shells;
+  double shell[6][2]; /* distance, spheres */
+  size_t neighbours;
+  double q4, q6, w4, w6;
+  enum bond_class class;
+};
 
 int main(void) {
   gsl_set_error_handler_off();
   test_sc_pairs();
-  test_shells("sc", 4,
-              (const double[][2]){{1, 6}, {sqrt(2), 12}, {sqrt(3), 8}, {2, 6}});
-  test_shells("bcc", 5,
-              (const double[][2]){{1, 8},
-                                  {sqrt(4. / 3), 6},
-                                  {sqrt(8. / 3), 12},
-                                  {sqrt(11. / 3), 24},
-                                  {2, 8}});
-  test_shells(
-      "fcc", 4,
-      (const double[][2]){{1, 12}, {sqrt(2), 6}, {sqrt(3), 24}, {2, 12}});
-  test_shells("hcp", 6,
-              (const double[][2]){{1, 12},
-                                  {sqrt(2), 6},
-                                  {sqrt(8. / 3), 2},
-                                  {sqrt(3), 18},
-                                  {sqrt(11. / 3), 12},
-                                  {2, 6}});
-  test_expected();
-  test_random_points(1);
-  test_random_points(2);
   /* cubic bonds: sc sqrt(7/12), sqrt(1/8); the 8 of bcc -sqrt(7/27),
      sqrt(32/81); with its 6 next ones the mean by their numbers */
-  test_order("sc", 6, sqrt(7. / 12), sqrt(1. / 8), 0.159317, 0.013161,
-             BOND_DISORDERED);
-  test_order("bcc", 14, (6 * sqrt(7. / 12) - 8 * sqrt(7. / 27)) / 14,
-             (6 * sqrt(1. / 8) + 8 * sqrt(32. / 81)) / 14, 0.159317, 0.013161,
-             BOND_BCC);
-  test_order("fcc", 12, sqrt(7. / 192), sqrt(169. / 512), -0.159317, -0.013161,
-             BOND_FCC);
-  test_order("hcp", 12, hcp_q(4), hcp_q(6), 0.134097, -0.012442, BOND_HCP);
+  const struct ideal ideals[] = {
+      {"sc",
+       4,
+       {{1, 6}, {sqrt(2), 12}, {sqrt(3), 8}, {2, 6}},
+       6,
+       sqrt(7. / 12),
+       sqrt(1. / 8),
+       0.159317,
+       0.013161,
+       BOND_DISORDERED},
+      {"bcc",
+       5,
+       {{1, 8},
+        {sqrt(4. / 3), 6},
+        {sqrt(8. / 3), 12},
+        {sqrt(11. / 3), 24},
+        {2, 8}},
+       14,
+       (6 * sqrt(7. / 12) - 8 * sqrt(7. / 27)) / 14,
+       (6 * sqrt(1. / 8) + 8 * sqrt(32. / 81)) / 14,
+       0.159317,
+       0.013161,
+       BOND_BCC},
+      {"fcc",
+       4,
+       {{1, 12}, {sqrt(2), 6}, {sqrt(3), 24}, {2, 12}},
+       12,
+       sqrt(7. / 192),
+       sqrt(169. / 512),
+       -0.159317,
+       -0.013161,
+       BOND_FCC},
+      {"hcp",
+       6,
+       {{1, 12},
+        {sqrt(2), 6},
+        {sqrt(8. / 3), 2},
+        {sqrt(3), 18},
+        {sqrt(11. / 3), 12},
+        {2, 6}},
+       12,
+       hcp_q(4),
+       hcp_q(6),
+       0.134097,
+       -0.012442,
+       BOND_HCP}};
+  for (size_t k = 0; k < sizeof ideals / sizeof *ideals; k++) {
+    const struct ideal *l = &ideals[k];
+    test_shells(l->name, l->shells, l->shell);
+    test_order(l->name, l->neighbours, l->q4, l->q6, l->w4, l->w6, l->class);
+    test_crystal(l->name, l->neighbours, l->q4, l->q6, l->class, l->shells,
+                 l->shell);
+  }
   CHECK_CLOSE(hcp_q(4), 0.097, 5e-4); /* Mickel et al. 2013 */
   CHECK_CLOSE(hcp_q(6), 0.485, 5e-4);
+  test_all_images();
+  test_expected();
+  for (unsigned long seed = 1; seed <= 2; seed++)
+    for (int periodic = 0; periodic < 2; periodic++)
+      test_random_points(seed, periodic);
   test_averages();
   return check_done();
 }

@@ -8,7 +8,7 @@
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_sf_coupling.h>
 #include <gsl/gsl_sf_legendre.h>
-#include "geometry/neighbors.h"
+#include "geometry/periodic.h"
 #include "geometry/vec3.h"
 
 /* Y_lm for m = 0 ... l, real and imaginary part, first of l = 4, then of 6;
@@ -113,26 +113,28 @@ enum bond_class bond_order_class(const struct bond_order *o, double least) {
   return o->wbar4 < 0 ? BOND_FCC : BOND_HCP;
 }
 
-int bond_order_find(size_t n, const double *x, double cutoff,
-                    const struct observer *observer, struct bond_order *order) {
-  struct neighbors near = {0};
-  double *no_radius = calloc(n + 1, sizeof *no_radius);
+int bond_order_find(size_t n, const double *x, const double period[3],
+                    double cutoff, const struct observer *observer,
+                    struct bond_order *order) {
+  struct periodic_pairs near = {0};
   struct harmonics *q = calloc(n + 1, sizeof *q);
   struct harmonics *mean = calloc(n + 1, sizeof *mean);
+  size_t i, j;
+  double u[3];
   int status = GSL_ENOMEM;
-  if (!no_radius || !q || !mean)
+  if (!q || !mean)
     goto done;
-  status = neighbors_find(&near, n, x, 3, no_radius, cutoff);
+  status = periodic_pairs_find(&near, n, x, cutoff, period);
   if (status != GSL_SUCCESS)
     goto done;
-  for (size_t i = 0; i < n; i++)
+  const size_t pairs = near.near.count;
+  for (i = 0; i < n; i++)
     order[i] = (struct bond_order){0};
-  for (size_t p = 0; p < near.count; p++) {
-    const size_t i = near.i[p], j = near.j[p];
+  for (size_t p = 0; p < pairs; p++) {
     struct harmonics y;
-    double u[3];
-    observer_tell(observer, p, near.count + n);
-    vec3_sub(x + 3 * i, x + 3 * j, u);
+    observer_tell(observer, p, pairs + n);
+    if (!periodic_pair(&near, p, &i, &j, u))
+      continue;
     if (!find_harmonics(u, &y)) {
       status = GSL_EDOM;
       goto done;
@@ -142,18 +144,20 @@ int bond_order_find(size_t n, const double *x, double cutoff,
     order[i].neighbours++;
     order[j].neighbours++;
   }
-  for (size_t i = 0; i < n; i++) {
+  for (i = 0; i < n; i++) {
     divide(&q[i], order[i].neighbours);
     mean[i] = q[i];
   }
-  for (size_t p = 0; p < near.count; p++) {
-    add_bond(&mean[near.i[p]], &q[near.j[p]]);
-    add_bond(&mean[near.j[p]], &q[near.i[p]]);
+  for (size_t p = 0; p < pairs; p++) {
+    if (!periodic_pair(&near, p, &i, &j, u))
+      continue;
+    add_bond(&mean[i], &q[j]);
+    add_bond(&mean[j], &q[i]);
   }
   struct couplings symbols;
   find_couplings(&symbols);
-  for (size_t i = 0; i < n; i++) {
-    observer_tell(observer, near.count + i, near.count + n);
+  for (i = 0; i < n; i++) {
+    observer_tell(observer, pairs + i, pairs + n);
     divide(&mean[i], order[i].neighbours + 1);
     order[i].q4 = invariant(&q[i], FOUR, 4);
     order[i].q6 = invariant(&q[i], SIX, 6);
@@ -163,8 +167,7 @@ int bond_order_find(size_t n, const double *x, double cutoff,
     order[i].wbar6 = third_invariant(&mean[i], SIX, 6, symbols.six[0]);
   }
 done:
-  neighbors_free(&near);
-  free(no_radius);
+  periodic_pairs_free(&near);
   free(mean);
   free(q);
   return status;

@@ -33,10 +33,12 @@ struct bond_order {
 enum bond_class { BOND_DISORDERED, BOND_FCC, BOND_HCP, BOND_BCC };
 enum bond_class bond_order_class(const struct bond_order *o, double least);
 
-/* Neighbours are the points within cutoff (m). x: 3n. A point without any has
-   zeros. Returns GSL_SUCCESS, GSL_EINVAL for a coordinate that is not finite,
+/* Neighbours are the points within cutoff (m), and images of points, across
+   periodic axes (geometry/periodic.h). x: 3n. A point without any has zeros.
+   Returns GSL_SUCCESS, GSL_EINVAL for a coordinate that is not finite,
    GSL_EDOM where two points are one, GSL_ENOMEM. Safe in any thread. */
-int bond_order_find(size_t n, const double *x, double cutoff,
-                    const struct observer *observer, struct bond_order *order);
+int bond_order_find(size_t n, const double *x, const double period[3],
+                    double cutoff, const struct observer *observer,
+                    struct bond_order *order);
 
 #endif

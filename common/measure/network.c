@@ -7,7 +7,6 @@
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
-#include "geometry/box.h"
 #include "geometry/periodic.h"
 
 void network_free(struct network *w) {
@@ -96,6 +95,7 @@ int network_find(struct network *w, const struct scene *s, const struct bed *b,
   }
   w->spheres = b->n;
   w->walls = s->walls_count;
+  memcpy(w->period, s->period, sizeof w->period);
   bool apart = true;
   for (size_t p = 0; p < near.count; p++) {
     if (both_fixed(b, near.i[p], near.j[p]))
@@ -238,7 +238,7 @@ size_t network_fabric(const struct network *w, const struct bed *b,
     const struct network_contact *c = &w->at[p];
     double x[3];
     network_point(c, b, x);
-    if (!c->counts || c->wall || (box && !box_holds(box, x)))
+    if (!c->counts || c->wall || (box && !periodic_in_box(w->period, box, x)))
       continue;
     count++;
     for (int k = 0; k < 6; k++)

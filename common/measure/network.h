@@ -25,6 +25,7 @@ struct network {
   size_t spheres, walls;
   size_t count;
   struct network_contact *at; /* pairs by (i, j), then walls by (i, j) */
+  double period[3];           /* of the scene */
 };
 
 /* Lists every pair, but of two obstacles, whose gap is at most reach (m), and

@@ -7,7 +7,7 @@
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_roots.h>
 #include "geometry/box.h"
-#include "geometry/neighbors.h"
+#include "geometry/periodic.h"
 #include "geometry/vec3.h"
 #include "geometry/volume.h"
 
@@ -21,17 +21,14 @@ struct contacts {
 static int find_contacts(const struct scene *s, size_t n, const double *x,
                          double r, struct contacts *c) {
   *c = (struct contacts){.pair_least = GSL_POSINF, .wall_least = GSL_POSINF};
-  double *radii = calloc(n + 1, sizeof *radii);
-  if (!radii)
-    return GSL_ENOMEM;
-  for (size_t i = 0; i < n; i++)
-    radii[i] = r;
-  struct neighbors nb = {0};
-  const int status = neighbors_find(&nb, n, x, 3, radii, 0);
-  for (size_t p = 0; p < nb.count; p++) {
-    double d[3];
-    vec3_sub(x + 3 * (size_t)nb.i[p], x + 3 * (size_t)nb.j[p], d);
-    const double distance = vec3_norm(d);
+  struct periodic_pairs near = {0};
+  const int status = periodic_pairs_find(&near, n, x, 2 * r, s->period);
+  for (size_t p = 0; p < near.near.count; p++) {
+    size_t i, j;
+    double u[3];
+    if (!periodic_pair(&near, p, &i, &j, u))
+      continue;
+    const double distance = vec3_norm(u);
     c->pairs++;
     c->pair_sum += distance;
     c->pair_least = fmin(c->pair_least, distance);
@@ -45,8 +42,7 @@ static int find_contacts(const struct scene *s, size_t n, const double *x,
       c->walls++;
       c->wall_sum += distance;
     }
-  neighbors_free(&nb);
-  free(radii);
+  periodic_pairs_free(&near);
   return status;
 }
 
@@ -66,30 +62,36 @@ int radius_overlaps(const struct scene *s, size_t n, const double *x, double r,
   return GSL_SUCCESS;
 }
 
+/* A distance that two centres have, not much more than the least of all as a
+   rule: the least from some of them. Infinite without a second centre. */
+static double some_distance(const double period[3], size_t n, const double *x) {
+  enum { SOME = 16 };
+  double least = GSL_POSINF;
+  for (int k = 0; k < 3; k++) /* of two images of one sphere */
+    if (period[k] > 0)
+      least = fmin(least, period[k]);
+  for (size_t k = 0; k < SOME; k++) {
+    const size_t i = k * n / SOME;
+    for (size_t j = 0; j < n; j++) {
+      double u[3];
+      vec3_sub(x + 3 * i, x + 3 * j, u);
+      periodic_nearest(period, u);
+      if (i != j)
+        least = fmin(least, vec3_norm(u));
+    }
+  }
+  return least;
+}
+
 int radius_touching(const struct scene *s, size_t n, const double *x,
                     double *r) {
-  double low[3], high[3], extent = 0;
-  for (int k = 0; k < 3; k++) {
-    low[k] = GSL_POSINF;
-    high[k] = GSL_NEGINF;
-  }
-  for (size_t i = 0; i < 3 * n; i++) {
-    low[i % 3] = fmin(low[i % 3], x[i]);
-    high[i % 3] = fmax(high[i % 3], x[i]);
-  }
-  for (int k = 0; k < 3; k++)
-    extent += high[k] - low[k];
   struct contacts c;
-  /* the first guess is that of a bed which fills its extent */
-  double guess = n > 1 && extent > 0 ? extent / 3 / cbrt((double)n) : 1;
-  for (;;) {
-    const int status = find_contacts(s, n, x, guess, &c);
-    if (status != GSL_SUCCESS)
-      return status;
-    if (c.pairs || n < 2)
-      break;
-    guess *= 2;
-  }
+  const double some = some_distance(s->period, n, x);
+  /* a little more, so that rounding leaves a pair */
+  const int status =
+      find_contacts(s, n, x, isfinite(some) ? some / 2 * (1 + 1e-9) : 0, &c);
+  if (status != GSL_SUCCESS)
+    return status;
   const double least = fmin(c.pair_least / 2, c.wall_least);
   if (!(least > 0) || !isfinite(least))
     return GSL_EDOM;
@@ -111,10 +113,54 @@ int radius_contact_mean(const struct scene *s, size_t n, const double *x,
   return GSL_SUCCESS;
 }
 
+/* The spheres of one radius, and all their images in the box. */
+static int find_images(const struct scene *s, size_t n, const double *x,
+                       const double box[6], double r,
+                       struct periodic_images *all) {
+  double *radii = malloc((n + 1) * sizeof *radii);
+  if (!radii)
+    return GSL_ENOMEM;
+  for (size_t i = 0; i < n; i++)
+    radii[i] = r;
+  const int status = periodic_images_in_box(all, n, x, radii, s->period, box);
+  free(radii);
+  return status;
+}
+
+int radius_volume(const struct scene *s, size_t n, const double *x,
+                  const double box[6], double r, bool sum,
+                  const struct observer *observer, double *volume) {
+  struct periodic_images all = {0};
+  int status = find_images(s, n, x, box, r, &all);
+  if (status == GSL_SUCCESS && sum)
+    *volume = volume_sum(all.count, all.x, all.radius, box);
+  else if (status == GSL_SUCCESS)
+    status =
+        volume_union_told(all.count, all.x, all.radius, box, observer, volume);
+  periodic_images_free(&all);
+  return status;
+}
+
+/* Marks per axis that the first guess of a union is counted on. */
+enum { MARKS = 32 };
+
+static int sampled_union(const struct scene *s, size_t n, const double *x,
+                         const double box[6], double r, double *volume) {
+  struct periodic_images all = {0};
+  double sum;
+  int status = find_images(s, n, x, box, r, &all);
+  if (status == GSL_SUCCESS)
+    status = volume_sampled(all.count, all.x, all.radius, box, MARKS, NULL,
+                            &sum, volume);
+  periodic_images_free(&all);
+  return status;
+}
+
 struct target {
+  const struct scene *s;
   size_t n;
   const double *x, *box;
-  double *radii, volume;
+  double volume;
   bool sum;
   int status; /* of the first volume that failed */
   const struct observer *observer;
@@ -130,42 +176,99 @@ static double excess(double r, void *params) {
   double volume = GSL_NAN;
   observer_tell(t->observer, GSL_MIN(t->volumes, VOLUMES - 1), VOLUMES);
   t->volumes++;
-  for (size_t i = 0; i < t->n; i++)
-    t->radii[i] = r;
-  if (t->sum)
-    volume = volume_sum(t->n, t->x, t->radii, t->box);
-  else if (t->status == GSL_SUCCESS)
-    t->status = volume_union(t->n, t->x, t->radii, t->box, &volume);
+  if (t->status == GSL_SUCCESS)
+    t->status =
+        radius_volume(t->s, t->n, t->x, t->box, r, t->sum, NULL, &volume);
   /* an end to the search for the root, which is then thrown away */
   return t->status == GSL_SUCCESS ? volume - t->volume : 0;
 }
 
-int radius_of_fraction(size_t n, const double *x, const double box[6],
-                       double fraction, bool sum,
+/* A bed of many spheres that is so wide of its fraction that each reaches over
+   so many others, on average, has no radius: its union would take hours, as the
+   square of their number, and is that of one lump. */
+enum { MOST_PARTNERS = 60, FEW_PAIRS = 100000 };
+
+static int is_lump(const struct target *t, double r, bool *lump) {
+  struct periodic_pairs near = {0};
+  const int status =
+      periodic_pairs_find(&near, t->n, t->x, 2 * r, t->s->period);
+  const double pairs = (double)near.near.count;
+  *lump = pairs > FEW_PAIRS && pairs > 0.5 * MOST_PARTNERS * (double)t->n;
+  periodic_pairs_free(&near);
+  return status;
+}
+
+/* About the radius of a union, by marks. high: of the volume without any
+   overlap, which the radius is not below. */
+static int guess(const struct target *t, double high, double *r) {
+  double low = 0, volume = 0;
+  bool lump = false;
+  for (int k = 0; k < 200 && volume < t->volume; k++) {
+    int status = is_lump(t, high, &lump);
+    if (status == GSL_SUCCESS && !lump)
+      status = sampled_union(t->s, t->n, t->x, t->box, high, &volume);
+    if (status != GSL_SUCCESS || lump)
+      return lump ? GSL_EDOM : status;
+    if (volume < t->volume)
+      low = high;
+    high *= 1.25;
+  }
+  if (volume < t->volume)
+    return GSL_EDOM;
+  for (int k = 0; k < 12; k++) {
+    const double middle = (low + high) / 2;
+    const int status = sampled_union(t->s, t->n, t->x, t->box, middle, &volume);
+    if (status != GSL_SUCCESS)
+      return status;
+    *(volume < t->volume ? &low : &high) = middle;
+  }
+  *r = (low + high) / 2;
+  return GSL_SUCCESS;
+}
+
+/* Moves the ends of an interval apart until the root is between them. */
+static int bracket(struct target *t, double *low, double *high) {
+  double step = 0.002;
+  for (; *low > 0 && excess(*low, t) > 0; step *= 4) {
+    *high = *low;
+    *low *= GSL_MAX(0, 1 - step);
+  }
+  for (int k = 0; k < 100; k++, step *= 4) {
+    if (excess(*high, t) >= 0)
+      return t->status;
+    *low = *high;
+    *high *= 1 + GSL_MIN(step, 0.5);
+  }
+  return GSL_EDOM;
+}
+
+int radius_of_fraction(const struct scene *s, size_t n, const double *x,
+                       const double box[6], double fraction, bool sum,
                        const struct observer *observer, double *r) {
   const double volume = box_volume(box);
   if (n == 0 || !(fraction > 0) || (!sum && fraction >= 1) || !(volume > 0))
     return GSL_EDOM;
-  struct target t = {.n = n,
+  struct target t = {.s = s,
+                     .n = n,
                      .x = x,
                      .box = box,
-                     .radii = malloc(n * sizeof *t.radii),
                      .volume = fraction * volume,
                      .sum = sum,
                      .observer = observer};
   gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
-  int status = GSL_ENOMEM;
-  if (!t.radii || !solver)
-    goto done;
+  if (!solver)
+    return GSL_ENOMEM;
   gsl_function f = {excess, &t};
-  /* the volume without any overlap: the root is not below */
   double low = 0, high = cbrt(t.volume / (double)n * 3 / (4 * M_PI));
-  for (int k = 0; k < 100 && excess(high, &t) < 0; k++) {
-    low = high;
-    high *= 1.5;
+  int status = GSL_SUCCESS;
+  if (!sum) {
+    status = guess(&t, high, &high);
+    low = high * (1 - 1e-3); /* what MARKS leave uncertain, as a rule */
+    high *= 1 + 1e-3;
   }
-  status = GSL_EDOM;
-  if (excess(high, &t) >= 0)
+  if (status == GSL_SUCCESS)
+    status = bracket(&t, &low, &high);
+  if (status == GSL_SUCCESS)
     status = gsl_root_fsolver_set(solver, &f, low, high);
   for (int k = 0; k < 200 && status == GSL_SUCCESS; k++) {
     status = gsl_root_fsolver_iterate(solver);
@@ -178,9 +281,6 @@ int radius_of_fraction(size_t n, const double *x, const double box[6],
     status = t.status;
   if (status == GSL_SUCCESS)
     *r = gsl_root_fsolver_root(solver);
-done:
-  if (solver)
-    gsl_root_fsolver_free(solver);
-  free(t.radii);
+  gsl_root_fsolver_free(solver);
   return status;
 }
