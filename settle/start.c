@@ -435,19 +435,43 @@ static enum fill_way way_of(const struct settings *s) {
   return (enum fill_way)way;
 }
 
-/* Options that this way of filling has no use for. */
-static void check_way(const struct settings *s, struct option_spec *options) {
+/* Options that not all ways of filling have a use for. */
+static bool way_uses(enum fill_way way, const char *option) {
   static const struct {
     const char *name;
     bool used[3];
   } uses[] = {{"jitter", {[FILL_GRID] = true}},
               {"drop", {[FILL_GRID] = true, [FILL_RANDOM] = true}},
               {"rate", {[FILL_RAIN] = true}}};
-  const enum fill_way way = way_of(s);
   for (size_t k = 0; k < sizeof uses / sizeof *uses; k++)
-    if (option_find(options, uses[k].name)->given && !uses[k].used[way])
-      die(EXIT_USAGE, "--%s: has no use with --fill %s", uses[k].name,
+    if (!strcmp(uses[k].name, option))
+      return uses[k].used[way];
+  return true;
+}
+
+static void check_way(const struct settings *s,
+                      const struct option_spec *options) {
+  const enum fill_way way = way_of(s);
+  for (const struct option_spec *o = options; o->name; o++)
+    if (o->given && !way_uses(way, o->name))
+      die(EXIT_USAGE, "--%s: has no use with --fill %s", o->name,
           fill_ways[way].name);
+}
+
+/* Rain that would pass through the floor: the contact of a centre that is as
+   deep as the floor stores less than the sphere brings. */
+static void check_rain(const struct settings *s, const struct bed *b) {
+  const struct contact_law *c = &s->scene.law;
+  for (size_t i = 0; i < b->n; i++) {
+    const double energy =
+        0.5 * b->m[i] * gsl_pow_2(b->v[3 * i + 2]) -
+        b->m[i] * s->scene.gravity[2] * fmax(0, b->x[3 * i + 2] - b->r[i]);
+    if (!(energy <= contact_energy(c, -b->r[i])))
+      die(EXIT_USAGE,
+          "--rate %g: spheres would arrive with %.3g m/s and pass through the "
+          "floor, expected a rate nearer to that of --rate 0, or fewer spheres",
+          s->fill.rate, sqrt(2 * energy / b->m[i]));
+  }
 }
 
 /* below: the bed that the new spheres are put over; may be empty. */
@@ -548,6 +572,10 @@ static void write_header(struct settings *s, const struct option_spec *options,
         s->scene_file && is_of_start(o) && o->value != &s->fill.count;
     if (!o->parameter || o->each || of_file)
       continue;
+    if (!s->scene_file && !way_uses(way_of(s), o->name)) {
+      bed_header_remove(h, o->name);
+      continue;
+    }
     option_text(o, text, sizeof text);
     if (strlen(text) + 1 == sizeof text)
       die(EXIT_USAGE, "--%s: expected fewer than %zu characters", o->name,
@@ -645,6 +673,8 @@ void start_make(struct settings *s, struct option_spec *options, struct bed *b,
   check_fixed(b, name);
   check_walls(&s->scene, b, name);
   soft_take(s, options, b, header);
+  if (!s->scene_file && way_of(s) == FILL_RAIN)
+    check_rain(s, b);
   if (file_of_start(s))
     part_overlaps(s, b, header, name);
   write_header(s, options, b, header);

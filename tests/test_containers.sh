@@ -94,7 +94,12 @@ END
 
 # --- periodic sides ----------------------------------------------------------
 refused 2 'too short, expected at least 0.6 m' "$B/settle" --periodic x --base 0.5,1
-refused 2 'one of x y xy' "$B/settle" --periodic z
+refused 2 'one of x y xy (' "$B/settle" --periodic z
+check 'help says each way once' [ "$("$B/settle" --help | grep -c 'one of x y xy$')" = 1 ]
+for sides in xy 'x y'; do
+  check "periodic: $sides" [ "$("$B/settle" --periodic "$sides" --count 1 --time 0 |
+    grep '^# periodic=')" = '# periodic=x y' ]
+done
 "$B/settle" --quiet --periodic xy --base 0.8,0.7 --count 60 --time 3 \
   > "$T/periodic.bed"
 check 'periodic sides in the header' cmp -s \

@@ -123,6 +123,8 @@ END
     4 * $2, 4 * $3, 4 * $4 }') <($start --fill $fill --count 50 --time 1e-4 --radius 0.4 |
     rows /dev/stdin | awk '{ printf "%.17g\n%.17g\n%.17g\n", $2, $3, $4 }')
   check "$fill in the header" [ "$(grep -c "^# fill=$fill" "$T/a.bed")" = 1 ]
+  check "$fill: nothing in the header that it has no use for" [ "$(grep -cE \
+    '^# jitter=' "$T/a.bed")" = 0 ]
   "$B/settle" --quiet --fill $fill --count 50 --time 4 > "$T/below.bed" 2> "$T/err"
   check "$fill settles" [ $? -eq 0 ]
   "$B/analyze" contacts "$T/below.bed" > "$T/tsv"
@@ -203,6 +205,13 @@ refused 2 '--rate: has no use with --fill grid' "$B/settle" --rate 10
 refused 2 '--drop: has no use with --fill rain' "$B/settle" --fill rain --drop 1
 refused 2 'expected gravity downwards' "$B/settle" --fill rain --gravity 1,0,-9
 refused 2 'found places' "$B/settle" --fill rain --rate 1e-300
+for rate in 1e-30 1 1e9; do # the paper's spheres pass with 661 m/s
+  refused 2 'm/s and pass through the floor' "$B/settle" --fill rain --rate $rate
+done
+"$B/settle" --quiet --fill rain --rate 5 --time 0 > "$T/a.bed" 2> "$T/err"
+check 'rain that is not too fast' [ $? -eq 0 ]
+check 'rain has no drop in its header' [ "$("$B/settle" --fill rain --time 0 |
+  grep -cE '^# drop=')" = 0 ]
 refused 2 'one of grid random rain' "$B/settle" --fill snow
 refused 2 'makes a start, expected none beside --scene' "$B/settle" --rate 9 \
   --scene "$T/below.bed"

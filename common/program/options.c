@@ -96,11 +96,20 @@ const char *option_choice_help(const struct option_spec *o, size_t k) {
   return *(const char *const *)((const char *)choice(o, k) + o->choice_help);
 }
 
+/* The same but for blanks: headers have periodic=x y for xy. */
+static bool is_choice(const char *choice, const char *text) {
+  for (;; choice++, text++) {
+    text += strspn(text, " ");
+    if (*choice != *text || !*choice)
+      return *choice == *text;
+  }
+}
+
 static const char *set_choice(struct option_spec *o, const char *text) {
   char list[600] = "one of";
   const char *c;
   for (size_t k = 0; (c = option_choice(o, k)); k++) {
-    if (!strcmp(c, text)) {
+    if (is_choice(c, text)) {
       *(const char **)o->value = c;
       return NULL;
     }

@@ -26,7 +26,7 @@ int scene_cylinder_option(const struct option_list *v, void *scene) {
   return scene_add_cylinder(scene, v->at, v->at + 3, v->at[6]);
 }
 
-const char *const scene_periodic[] = {"x", "y", "xy", "x y", NULL};
+const char *const scene_periodic[] = {"x", "y", "xy", NULL};
 
 void scene_no_periodic(char *text, size_t size) {
   snprintf(text, size, "none");
