@@ -164,6 +164,68 @@ run analyze profile --axis x --cylinder 0.5,0.5,0.1 --points 1 --radius 0.2 "$T/
 check "profile: cylinder along x" is 'near(r["sum"], 2 * sqrt(0.0375), 1e-14)'
 run analyze profile --points 3 "$T/bed"
 check "profile: frames are apart" test "$(grep -c '^$' "$T/out")" = 1
+# The bed's own tube: three spheres, of which two overlap, in an upright tube and
+# turned with it, by the rotation that takes z to (1, 2, 2)/3.
+spheres='0.1 0 1 0.2
+0.25 0.05 1.1 0.15
+-0.3 0.1 1.6 0.1'
+upright() { # the bed, by rows of spheres
+  printf '%b' '# format=bed-1\n# cylinder=0 0 0 0 0 1 0.5\nx\ty\tz\tr\n'
+  awk -v OFS='\t' '{ print $1, $2, $3, $4 }' <<<"$spheres"
+  echo '# status=ok'
+}
+upright >"$T/upright"
+{
+  printf '%b' '# format=bed-1\n# cylinder=4 5 6 1 2 2 0.5\nx\ty\tz\tr\n'
+  # (2, 1, -2)/3, (-2, 2, -1)/3 and (1, 2, 2)/3 are the turned axes
+  awk -v OFS='\t' '{ printf "%.17g\t%.17g\t%.17g\t%s\n",
+    4 + (2 * $1 - 2 * $2 + $3) / 3, 5 + ($1 + 2 * $2 + 2 * $3) / 3,
+    6 + (-2 * $1 - $2 + 2 * $3) / 3, $4 }' <<<"$spheres"
+  echo '# status=ok'
+} >"$T/turned"
+run analyze profile --radial --along 0,2 --points 1000 "$T/turned"
+check "radial: columns" names 't\tradius\tsum\tunion'
+cp "$T/out" "$T/w"
+run analyze profile --cylinder 0,0,0.5 --box=-1,1,-1,1,0,2 --points 1000 "$T/upright"
+check "radial: an inclined tube is like an upright one" awk 'function abs(x) {
+    return x < 0 ? -x : x }
+  NR == FNR { sum[FNR] = $3; union[FNR] = $4; next }
+  FNR > 1 && !(abs(sum[FNR] - $3) < 1e-12 && abs(union[FNR] - $4) < 1e-12) { bad = 1 }
+  END { exit bad || FNR != 1001 }' "$T/out" "$T/w"
+# what the shells have is what the spheres are: midpoints of square-root edges
+volumes=$(awk '{ v += 4 / 3 * atan2(0, -1) * $4 ^ 3 } END { printf "%.17g", v }' \
+  <<<"$spheres")
+run analyze --box=-1,1,-1,1,0,2 "$T/upright"
+united=$(awk 'NR == 2 { printf "%.17g", 8 * $3 }' "$T/out")
+awk 'NR > 1 { h = 0.5 / 1000; s += 2 * atan2(0, -1) * $2 * 2 * $3 * h
+  u += 2 * atan2(0, -1) * $2 * 2 * $4 * h } END { printf "%.17g %.17g\n", s, u }' \
+  "$T/w" >"$T/integral"
+check "radial: the sum is conserved: $(cat "$T/integral"), $volumes" awk -v v="$volumes" \
+  '{ d = $1 / v - 1; exit !(d < 3e-5 && d > -3e-5) }' "$T/integral"
+check "radial: the union is conserved: $united" awk -v v="$united" \
+  '{ d = $2 / v - 1; exit !(d < 3e-5 && d > -3e-5) }' "$T/integral"
+run analyze profile --radial --from-wall 0.25 --along 0,2 --points 500 "$T/turned"
+check "radial: from the wall" awk 'NR == FNR { sum[FNR] = $3; next }
+  FNR > 1 && !(sum[1003 - FNR] - $3 < 1e-12 && $3 - sum[1003 - FNR] < 1e-12) { bad = 1 }
+  END { exit bad || FNR != 501 }' "$T/w" "$T/out"
+# on a floor: the bottom cube on the square inscribed in the tube
+sed 's/^# cylinder=.*/&\n# wall=0 0 0 0 0 -1/' "$T/upright" >"$T/floor"
+run analyze profile --radial --points 10 "$T/floor"
+cp "$T/out" "$T/w"
+run analyze profile --cylinder 0,0,0.5 --points 10 "$T/floor"
+check "radial: on a floor" cmp -s "$T/w" "$T/out"
+sed 's/^# cylinder=.*/# cylinder=0 0 7 0 0 -1 0.5/' "$T/floor" >"$T/down"
+run analyze profile --radial --points 10 "$T/down"
+check "radial: an axis that points down" awk 'NR == FNR { u[FNR] = $4; next }
+  FNR > 1 && !(u[FNR] - $4 < 1e-12 && $4 - u[FNR] < 1e-12) { bad = 1 }
+  END { exit bad || FNR != 11 }' "$T/w" "$T/out"
+refuse "radial: no floor" 3 'expected --along' profile --radial "$T/turned"
+refuse "radial: no tube" 3 'no cylinder' profile --radial "$T/one"
+sed 's/^# cylinder=.*/&\n&/' "$T/turned" >"$T/twice"
+refuse "radial: two tubes" 3 'several cylinders' profile --radial "$T/twice"
+refuse "radial: and a cylinder" 2 'no --cylinder' profile --radial --cylinder 0,0,1 "$T/one"
+refuse "radial: along what" 2 'expected --radial' profile --along 0,1 "$T/one"
+
 refuse "from-wall beyond the middle" 2 '--from-wall 0.6: expected at most 0.5' \
   profile --from-wall 0.6 "$T/one"
 refuse "from-wall beyond the axis" 2 '--from-wall 0.3: expected at most 0.2' \
