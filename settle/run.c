@@ -14,6 +14,7 @@
 #include "program/integration.h"
 #include "program/progress.h"
 #include "model/rest.h"
+#include "platform/system.h"
 #include "dynamics/motion.h"
 #include "watch.h"
 
@@ -362,6 +363,16 @@ static void start_motion(struct run *r, struct checkpoint *from) {
   }
 }
 
+/* The same options give the same bits where these are the same. The command
+   line is in the statistics: beds by any number of threads are equal. */
+static void note_origin(const struct run *r, struct bed_header *h) {
+  char build[SYSTEM_BUILD_SIZE];
+  system_build(build);
+  if (bed_header_set(h, "build", build) != GSL_SUCCESS ||
+      bed_header_set(h, "kernel", r->kernel) != GSL_SUCCESS)
+    die(EXIT_IO, "out of memory");
+}
+
 int run(struct setup *setup, struct checkpoint *from) {
   const struct settings *s = setup->set;
   struct run r = {.set = s,
@@ -373,6 +384,7 @@ int run(struct setup *setup, struct checkpoint *from) {
   progress_listen();
   open_files(&r, from);
   start_motion(&r, from);
+  note_origin(&r, setup->header);
   if (!setup->order) {
     const size_t bytes = setup->bed->n * sizeof *setup->order;
     setup->order = malloc(bytes);

@@ -564,6 +564,8 @@ static void write_header(struct settings *s, const struct option_spec *options,
   bed_header_remove(h, "wall");
   bed_header_remove(h, "cylinder");
   bed_header_remove(h, "status");
+  bed_header_remove(h, "build"); /* the run's */
+  bed_header_remove(h, "kernel");
   check_memory(bed_header_set(h, "format", "bed-1"));
   check_memory(bed_header_set(h, "program", "settle"));
   check_memory(bed_header_set(h, "version", DEM_VERSION));

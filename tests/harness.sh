@@ -54,6 +54,10 @@ refused() { # STATUS WORDS COMMAND...
   check "output without a bed: ${*:3}" [ ! -s "$T/out" ]
 }
 
+unsealed() { # FILE...: a bed without its checksums, to be changed
+  grep -v '^# checksum=' "$@"
+}
+
 sanitized() { # whether the address sanitizer is in: it needs all addresses there are
   nm "$B/analyze" 2>/dev/null | grep -q __asan_init &&
     echo "skipped under the address sanitizer: $1"

@@ -197,7 +197,8 @@ static void test_round_trip(gsl_rng *rng) {
   }
 }
 
-/* The bytes themselves, as README.md and the other programs know them. */
+/* The bytes themselves, as README.md and the other programs know them; the
+   checksums are those that gzip gives these lines. */
 static void test_bytes(void) {
   struct bed b[2];
   struct bed_header h = {0};
@@ -213,20 +214,21 @@ static void test_bytes(void) {
     memcpy(b[k].w, (double[]){7, 8, 9e99}, 3 * sizeof(double));
   }
   char *text = write_text(&h, 2, b, true, "ok");
-  CHECK(!strcmp(text, "# format=bed-1\n# t=0\n"
+  CHECK(!strcmp(text, "# format=bed-1\n# checksum=e9897ee8\n# t=0\n"
                       "id\tx\ty\tz\tr\tm\tvx\tvy\tvz\twx\twy\twz\n"
                       "4\t1\t-2\t0.5\t0.25\t1\t0.001\t-0\t3\t7\t8\t"
-                      "9e+99\n"
+                      "9e+99\n# checksum=897caa85\n"
                       "\n\n# t=0.1\n"
                       "id\tx\ty\tz\tr\tm\tvx\tvy\tvz\twx\twy\twz\n"
                       "4\t1\t-2\t0.5\t0.25\t1\t0.001\t-0\t3\t7\t8\t"
-                      "9e+99\n"
+                      "9e+99\n# checksum=d6806963\n"
                       "# status=ok\n"));
   free(text);
   text = write_text(&h, 1, b, false, "limit: not at rest");
-  CHECK(!strcmp(text, "# format=bed-1\n# t=0\n"
+  CHECK(!strcmp(text, "# format=bed-1\n# checksum=e9897ee8\n# t=0\n"
                       "id\tx\ty\tz\tr\tm\tvx\tvy\tvz\n"
                       "4\t1\t-2\t0.5\t0.25\t1\t0.001\t-0\t3\n"
+                      "# checksum=baf9d135\n"
                       "# status=limit: not at rest\n"));
   free(text);
   bed_header_free(&h);
@@ -548,6 +550,81 @@ static void test_partial(void) {
   }
 }
 
+/* --- checksums -------------------------------------------------------------*/
+
+#define SUM "# checksum=baf9d135\n"
+#define HEAD_SUM "# checksum=e9897ee8\n"
+#define SUMMED                                                                 \
+  "# t=0\nid\tx\ty\tz\tr\tm\tvx\tvy\tvz\n"                                     \
+  "4\t1\t-2\t0.5\t0.25\t1\t0.001\t-0\t3\n"
+#define FORMAT "# format=bed-1\n"
+
+/* What may be done to a bed, and what not. */
+static void test_sums(void) {
+  static const struct {
+    const char *text;
+    size_t frames;    /* 0: refused, */
+    const char *says; /* with these words */
+  } cases[] = {
+      {FORMAT HEAD_SUM SUMMED SUM END, 1, ""},
+      {FORMAT HEAD_SUM SUMMED SUM "\n\n" SUMMED SUM END, 2, ""},
+      {FORMAT HEAD_SUM SUMMED SUM END FORMAT HEAD_SUM SUMMED SUM END, 2, ""},
+      /* comments, also as keys in front; the line ends of DOS */
+      {"# by me\n# a=b\n" FORMAT "# x\n" HEAD_SUM SUMMED "#\n" SUM END, 1, ""},
+      {"# format=bed-1\r\n# checksum=e9897ee8\r\n" SUMMED SUM END, 1, ""},
+      /* one or the other is left out; a header in front of a frame */
+      {FORMAT SUMMED SUM END, 1, ""},
+      {FORMAT "# other=1\n" SUMMED SUM END, 1, ""},
+      {FORMAT HEAD_SUM SUMMED END, 1, ""},
+      {FORMAT HEAD_SUM "# t=5\nx y z\n1 2 3\n\n\n" SUMMED SUM END, 2, ""},
+      {FORMAT "# new=1\n" HEAD_SUM SUMMED SUM END, 0,
+       "file:3: checksum=e9897ee8: the header has "},
+      {FORMAT HEAD_SUM "# new=1\n" SUMMED SUM END, 0,
+       "file:3: '# new=1' behind"},
+      {FORMAT HEAD_SUM "x y z\n1 2 3\n" END, 0, "file:3: 'x y z' behind"},
+      {FORMAT HEAD_SUM SUMMED "5 1 1 1 1 1 0 0 0\n" SUM END, 0,
+       "file:7: checksum=baf9d135: the frame of t=0 has "},
+      {FORMAT HEAD_SUM SUMMED SUM "5 1 1 1 1 1 0 0 0\n" END, 0,
+       "file:7: '5 1 1"},
+      {FORMAT HEAD_SUM SUMMED SUM "# t=7\n" END, 0, "file:7: '# t=7' behind"},
+      {FORMAT HEAD_SUM SUMMED "# checksum=BAF9D135\n" END, 0, "grep -v"},
+      {FORMAT HEAD_SUM SUMMED "# checksum=\n" END, 0, "grep -v"},
+      {FORMAT HEAD_SUM SUMMED SUM SUM END, 0, "file:7: a checksum of no lines"},
+  };
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+    struct reading r = read_text(cases[k].text);
+    const int wanted = cases[k].frames ? GSL_EOF : GSL_EINVAL;
+    if (!CHECK(r.status == wanted && r.frames == cases[k].frames &&
+               !strcmp(key(&r, "checksum"), "(none)") &&
+               (cases[k].frames ||
+                strstr(bed_reader_error(r.reader), cases[k].says))))
+      fprintf(stderr, "  %s: status %d, %zu frames: %s\n", cases[k].text,
+              r.status, r.frames, bed_reader_error(r.reader));
+    reading_free(&r);
+  }
+}
+
+/* Any bit that turns within a line under a checksum is found. */
+static void test_turned_bits(void) {
+  const char whole[] = FORMAT HEAD_SUM SUMMED SUM "\n\n" SUMMED SUM END;
+  char text[sizeof whole];
+  for (size_t at = 0; at < sizeof whole - 1; at++) {
+    const char *begin = whole + at;
+    while (begin > whole && begin[-1] != '\n')
+      begin--;
+    const bool summed = *begin != '\n' && strncmp(begin, "# checksum", 10) &&
+                        strncmp(begin, "# status", 8);
+    for (int bit = 0; bit < 8 && summed; bit++) {
+      memcpy(text, whole, sizeof whole);
+      text[at] = (char)(text[at] ^ (1 << bit));
+      struct reading r = read_text(text);
+      if (!CHECK(r.status == GSL_EINVAL))
+        fprintf(stderr, "  bit %d of byte %zu\n", bit, at);
+      reading_free(&r);
+    }
+  }
+}
+
 /* --- headers ---------------------------------------------------------------*/
 
 static void test_header(void) {
@@ -621,6 +698,8 @@ int main(void) {
   test_refusals();
   test_cuts();
   test_partial();
+  test_sums();
+  test_turned_bits();
   test_header();
   test_write_error();
   test_read_error();

@@ -63,9 +63,9 @@ for walls in '--periodic xy --base 0.8,0.7' '--cylinder 0.3,0.2,0,0,0,1,0.35'; d
   "$B/settle" --quiet $walls --count 20 --time 1 > "$T/below.bed"
   $start --onto "$T/below.bed" --count 25 --time 1.2 > "$T/onto.bed" 2> "$T/err"
   check "$walls: onto" [ $? -eq 0 ]
-  check "$walls: walls go on" cmp -s <(grep -E '^# [wcpb].*=' "$T/below.bed" |
-    grep -v count) <(sed '/^$/,$d' "$T/onto.bed" | grep -E '^# [wcpb].*=' |
-    grep -v count)
+  check "$walls: walls go on" cmp -s <(unsealed "$T/below.bed" |
+    grep -E '^# [wcpb].*=' | grep -v count) <(sed '/^$/,$d' "$T/onto.bed" |
+    unsealed | grep -E '^# [wcpb].*=' | grep -v count)
 done
 # obstacles of a table without a header
 printf 'x\ty\tz\tr\tfixed\n0.5\t0.5\t0.1\t0.1\t1\n0.2\t0.2\t0.1\t0.1\t0\n' > "$T/table.tsv"
@@ -149,8 +149,10 @@ END
 done
 check 'no key that was not asked for' [ "$("$B/settle" --quiet --count 1 --time 0.1 |
   grep -cE '^# (fill|rate)=')" = 0 ]
-check 'the grid by name is the grid' cmp -s <("$B/settle" --quiet --count 9 --time 0.1) \
-  <("$B/settle" --quiet --count 9 --time 0.1 --fill grid | grep -v '^# fill=grid')
+check 'the grid by name is the grid' cmp -s \
+  <("$B/settle" --quiet --count 9 --time 0.1 | unsealed) \
+  <("$B/settle" --quiet --count 9 --time 0.1 --fill grid | unsealed |
+    grep -v '^# fill=grid')
 # the share of volume of the region
 within 'share of random places' "$($start --fill random --count 400 --time 1e-4 |
   rows /dev/stdin | awk '{ z = $4; if (low == "" || z < low) low = z

@@ -273,7 +273,7 @@ run settle --quiet --scene "$T/re" --time 1.01
 check "restart from a rewritten bed goes on from the dynamics' radius" \
   cmp -s "$T/out" "$T/w"
 check "restart says so" grep -q '^settle: .*radius_dynamics=0.1' "$T/err"
-sed 's/^# radius_dynamics=.*/# radius_dynamics=no/' "$T/re" >"$T/bad"
+unsealed "$T/re" | sed 's/^# radius_dynamics=.*/# radius_dynamics=no/' >"$T/bad"
 run settle --quiet --scene "$T/bad" --time 1.01
 check "restart: a bad key" test "$status" = 3
 refuse "radius: a bad key" 3 'radius_dynamics: expected' radius "$T/bad"

@@ -7,6 +7,7 @@
 #include <gsl/gsl_errno.h>
 #include "files/columns.h"
 #include "files/numbers.h"
+#include "files/sheet.h"
 
 /* Header */
 
@@ -95,26 +96,55 @@ void bed_header_store(struct bed_header *h, struct store *s) {
 
 /* Writer */
 
+static void put_names(struct sheet *s, bool spin, bool fixed) {
+  sheet_text(s, column_name(COLUMN_ID));
+  for (int c = COLUMN_X; c <= (spin ? COLUMN_WZ : COLUMN_VZ); c++) {
+    if (c == COLUMN_D)
+      continue;
+    sheet_text(s, "\t");
+    sheet_text(s, column_name((enum column)c));
+  }
+  sheet_text(s, fixed ? "\tfixed\n" : "\n");
+}
+
+static void put_row(struct sheet *s, const struct bed *b, size_t i, bool spin) {
+  const double *x = b->x + 3 * i, *v = b->v + 3 * i, *w = b->w + 3 * i;
+  const double row[] = {x[0], x[1], x[2], b->r[i], b->m[i], v[0],
+                        v[1], v[2], w[0], w[1],    w[2]};
+  char id[NUMBER_SIZE];
+  snprintf(id, sizeof id, "%ld", b->id[i]);
+  sheet_text(s, id);
+  sheet_numbers(s, '\t', spin ? 11 : 8, row);
+  sheet_text(s, !b->fixed ? "\n" : b->fixed[i] ? "\t1\n" : "\t0\n");
+}
+
+static void write_header(FILE *out, const struct bed_header *h) {
+  struct sheet s = sheet_begin(out);
+  for (size_t k = 0; k < h->count; k++) {
+    const struct bed_key *key = &h->at[k];
+    if (!strcmp(key->name, "t") || !strcmp(key->name, "status"))
+      continue;
+    sheet_text(&s, "# ");
+    sheet_text(&s, key->name);
+    sheet_text(&s, "=");
+    sheet_text(&s, key->value);
+    sheet_text(&s, "\n");
+  }
+  sheet_end(&s);
+}
+
 void bed_write_frame(FILE *out, const struct bed_header *h, const struct bed *b,
                      bool spin) {
-  for (size_t k = 0; k < h->count; k++)
-    if (strcmp(h->at[k].name, "t") && strcmp(h->at[k].name, "status"))
-      fprintf(out, "# %s=%s\n", h->at[k].name, h->at[k].value);
-  fputs("# t=", out);
-  numbers_write(out, 0, 1, &b->t);
-  fprintf(out, "\n%s", column_name(COLUMN_ID));
-  for (int c = COLUMN_X; c <= (spin ? COLUMN_WZ : COLUMN_VZ); c++)
-    if (c != COLUMN_D)
-      fprintf(out, "\t%s", column_name((enum column)c));
-  fputs(b->fixed ? "\tfixed\n" : "\n", out);
-  for (size_t i = 0; i < b->n; i++) {
-    fprintf(out, "%ld\t", b->id[i]);
-    const double *x = b->x + 3 * i, *v = b->v + 3 * i, *w = b->w + 3 * i;
-    const double row[] = {x[0], x[1], x[2], b->r[i], b->m[i], v[0],
-                          v[1], v[2], w[0], w[1],    w[2]};
-    numbers_write(out, '\t', spin ? 11 : 8, row);
-    fputs(!b->fixed ? "\n" : b->fixed[i] ? "\t1\n" : "\t0\n", out);
-  }
+  if (h->count)
+    write_header(out, h);
+  struct sheet s = sheet_begin(out);
+  sheet_text(&s, "# t");
+  sheet_numbers(&s, '=', 1, &b->t);
+  sheet_text(&s, "\n");
+  put_names(&s, spin, b->fixed != NULL);
+  for (size_t i = 0; i < b->n; i++)
+    put_row(&s, b, i, spin);
+  sheet_end(&s);
 }
 
 void bed_write_gap(FILE *out) {

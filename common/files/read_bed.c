@@ -6,6 +6,7 @@
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include "files/numbers.h"
+#include "files/sheet.h"
 
 static const double default_radius = 0.1;                         /* settle's */
 static const char *const repeated[] = {"wall", "cylinder", NULL}; /* keys */
@@ -19,6 +20,9 @@ struct bed_state {
   bool named;    /* column names were read since the last frame, */
   bool timed;    /* or a time, so there must be rows; */
   bool apart;    /* a blank line came since that time */
+  bool sums;     /* there are lines in the sum */
+  bool sealed;   /* their checksum was read */
+  struct checksum sum;
 };
 
 static struct text trim(struct text t) {
@@ -42,6 +46,15 @@ static bool split_key(const char *line, struct text *name, struct text *value) {
   *value = trim((struct text){equals + 1, strlen(equals + 1)});
   return name->length && !memchr(name->at, ' ', name->length) &&
          !memchr(name->at, '\t', name->length);
+}
+
+/* Lines count with the end that the writer gave them. */
+static void add_line(struct bed_state *s, const char *line) {
+  if (!s->sums)
+    s->sum = checksum_begin();
+  s->sums = true;
+  checksum_add(&s->sum, line, strlen(line));
+  checksum_add(&s->sum, "\n", 1);
 }
 
 static bool is_text(struct text t, const char *text) {
@@ -87,10 +100,47 @@ static int read_key(struct bed_reader *r, const char *name, const char *value) {
   return bed_header_add(&r->header, name, value);
 }
 
+#define AS_IT_IS                                                               \
+  "to use it as it is, remove such lines by grep -v '^# " SHEET_CHECKSUM "='"
+
+/* A checksum is of the lines before it: of the header's from the format on, of
+   a frame's from its time on, so that a header may be put before any frame. */
+static int check_sum(struct bed_reader *r, struct text value) {
+  struct bed_state *s = r->state;
+  char found[SHEET_SUM_SIZE], what[64] = "the header";
+  if (!s->sums)
+    return reader_fail(r, "a checksum of no lines; " AS_IT_IS);
+  sheet_sum(&s->sum, found);
+  if (r->rows_count)
+    snprintf(what, sizeof what, "the frame of t=%g", s->t);
+  if (!is_text(value, found))
+    return reader_fail(r, "checksum=%.*s: %s has %s, it was changed; " AS_IT_IS,
+                       value.length > 8 ? 8 : (int)value.length, value.at, what,
+                       found);
+  s->sums = false;
+  s->sealed = true;
+  return GSL_SUCCESS;
+}
+
+static int behind_sum(struct bed_reader *r) {
+  return reader_fail(r, "'%.40s' behind a checksum; " AS_IT_IS, r->line);
+}
+
+/* A line that is no part of the bed is anybody's. */
 static int read_comment(struct bed_reader *r) {
+  struct bed_state *s = r->state;
   struct text name, value;
   if (!split_key(r->line, &name, &value))
     return GSL_SUCCESS;
+  if (is_text(name, SHEET_CHECKSUM))
+    return check_sum(r, value);
+  const bool begins = is_text(name, format_key) || is_text(name, "t");
+  if (s->sealed && !is_text(name, "status") && (r->rows_count || !begins))
+    return behind_sum(r);
+  if (!r->rows_count)
+    s->sealed = false;
+  s->sums = s->sums && !begins;
+  add_line(s, r->line);
   char *const line = r->line; /* both are parts of it */
   line[name.at - line + (ptrdiff_t)name.length] = 0;
   line[value.at - line + (ptrdiff_t)value.length] = 0;
@@ -126,7 +176,7 @@ static int read_names(struct bed_reader *r) {
 static int finish_frame(struct bed_reader *r, struct bed *b) {
   struct bed_state *s = r->state;
   s->stale[0] = s->stale[1] = true;
-  s->named = s->timed = false;
+  s->named = s->timed = s->sums = s->sealed = false;
   return reader_frame(r, b, s->t);
 }
 
@@ -182,8 +232,12 @@ static bool begins_row(const char *line) {
 
 /* A line that is not blank. */
 static int read_bed_line(struct bed_reader *r, const char *line) {
+  struct bed_state *s = r->state;
   if (*line == '#')
     return read_comment(r);
+  if (s->sealed)
+    return behind_sum(r);
+  add_line(s, r->line);
   if (!begins_row(line))
     return read_names(r);
   if (!r->columns.count)

@@ -28,6 +28,7 @@
 #include "variable.h"
 extern "C" {
 #include "files/numbers.h"
+#include "files/sheet.h"
 #include "model/travel.h"
 #include "rows.h"
 #include "steppers/predictive.h"
@@ -466,23 +467,32 @@ void Bed::gather(FILE *out) {
     return;
   std::ifstream head("start.tsv");
   std::string line;
-  while (std::getline(head, line) && line[0] == '#')
+  struct sheet sheet = sheet_begin(out);
+  while (std::getline(head, line) && line[0] == '#') {
+    if (line.compare(0, 11, "# checksum=") == 0)
+      continue;
     if (line.compare(0, 4, "# t=") == 0) {
-      fputs("# t=", out);
-      numbers_write(out, ' ', 1, &t);
-      fputc('\n', out);
+      sheet_end(&sheet);
+      sheet = sheet_begin(out);
+      sheet_text(&sheet, "# t");
+      sheet_numbers(&sheet, '=', 1, &t);
     } else
-      fprintf(out, "%s\n", line.c_str());
-  fprintf(out, "%s\n", line.c_str()); /* columns */
+      sheet_text(&sheet, line.c_str());
+    sheet_text(&sheet, "\n");
+  }
+  sheet_text(&sheet, (line + '\n').c_str()); /* columns */
   const bool spin = line.find("wx") != std::string::npos;
   const bool fixed = line.find("fixed") != std::string::npos;
   for (size_t k = 0; k < all.size(); k += WIDTH) {
-    fprintf(out, "%.0f\t", all[k]);
-    numbers_write(out, '\t', spin ? WIDTH - 2 : WIDTH - 5, &all[k + 1]);
+    char id[32];
+    snprintf(id, sizeof id, "%.0f", all[k]);
+    sheet_text(&sheet, id);
+    sheet_numbers(&sheet, '\t', spin ? WIDTH - 2 : WIDTH - 5, &all[k + 1]);
     if (fixed)
-      fprintf(out, "\t%.0f", all[k + WIDTH - 1]);
-    fputc('\n', out);
+      sheet_numbers(&sheet, '\t', 1, &all[k + WIDTH - 1]);
+    sheet_text(&sheet, "\n");
   }
+  sheet_end(&sheet);
   fputs("# status=ok\n", out);
 }
 

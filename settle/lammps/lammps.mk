@@ -9,6 +9,7 @@ LAMMPS_LIBS ?= -llammps
 LAMMPS_OF := steppers/chebyshev steppers/power steppers/predictive \
   steppers/rkc_step steppers/stage dynamics/kernel_select dynamics/rates \
   dynamics/scale model/scene model/similarity files/numbers \
+  files/sheet \
   platform/store platform/checksum
 LAMMPS_OBJECTS := $(LAMMPS_OF:%=$(O)/lammps/common/%.o) \
   $(O)/lammps/settle/lammps/rows.o
