@@ -166,7 +166,7 @@ done
 # --- a bed that begins half in a wall ------------------------------------------
 "$B/settle" --count 8 --time 0 >"$T/start"
 awk -F '\t' -v OFS='\t' '/^[0-9]/ && !done {$4 = 0.03; done = 1} {print}' \
-  "$T/start" >"$T/half"
+  <(unsealed "$T/start") >"$T/half"
 run settle --scene "$T/half" --time 0.02 --kappa 40
 warned 2 "t=0: sphere 0 overlaps by 0.70 radii.*$(page Penetration)" \
   "$(page 'The cut at lmax')"

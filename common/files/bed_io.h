@@ -31,8 +31,8 @@ void bed_header_free(struct bed_header *h);
 /* All of it (platform/store.h), taken out into an empty header. */
 void bed_header_store(struct bed_header *h, struct store *s);
 
-/* Writes a frame: its header's keys with their checksum (files/sheet.h), then t,
-   columns and rows with theirs; spin adds the columns of angular velocity.
+/* Writes a frame: its header's keys with their checksum (files/sheet.h), then
+   t, columns and rows with theirs; spin adds the columns of angular velocity.
    Separate frames with bed_write_gap and end the file with bed_write_status.
    Errors stay in ferror(out). */
 void bed_write_frame(FILE *out, const struct bed_header *h, const struct bed *b,
