@@ -144,9 +144,8 @@ check 'export states the fraction of the cell' grep -q \
     print substr($3, 1, 10) }')" "$T/err"
 # the same bed, moved by any vector across its periodic sides: places and box
 moved() { # DX DY: the bed, wrapped by its reader alone
-  awk -v dx="$1" -v dy="$2" -v OFS='\t' '/^[0-9]/ {
-    $2 = sprintf("%.17g", $2 + dx); $3 = sprintf("%.17g", $3 + dy) } { print }' \
-    "$T/periodic.bed"
+  unsealed "$T/periodic.bed" | awk -v dx="$1" -v dy="$2" -v OFS='\t' '/^[0-9]/ {
+    $2 = sprintf("%.17g", $2 + dx); $3 = sprintf("%.17g", $3 + dy) } { print }'
 }
 same() { # TOLERANCE: two tables, every number, times the larger of it and 1
   awk -v tol="$1" 'NR == FNR { row[FNR] = $0; n = FNR; next }
