@@ -272,6 +272,14 @@ for degrees in 40 44 46 50; do
   is "a wall at $degrees degrees: no $other" "$(value $other)" 0
   check "a wall at $degrees degrees carries" test "$(value floor)" != \
     "$(value sides)"
+  # a tube along y, 0.4 around its axis
+  at=$(awk -v a=$degrees 'BEGIN {a *= atan2(0, -1) / 180
+    printf "%.17g 0 %.17g 0.1", 0.4 * sin(a), -0.4 * cos(a)}')
+  scene 'cylinder=0 0 0 0 1 0 0.5' <<<"$at" >"$T/slope"
+  measure contacts "$T/slope"
+  is "a tube at $degrees degrees: no $other" "$(value $other)" 0
+  check "a tube at $degrees degrees carries" test "$(value floor)" != \
+    "$(value sides)"
 done
 # an overlap is one whether or not the pair counts, and a gap is none though it
 # does: pairs at an overlap of 0.02 (0.1 diameters) and a gap of 0.05

@@ -66,6 +66,18 @@ static struct seen swinging(double t) {
   return (struct seen){0.01 * c * c, 7 + 0.01 * sin(2 * M_PI * t / 5)};
 }
 
+/* Something moves for a moment every 0.97 s and 1.03 s. */
+static struct seen moves_each(double t, double period) {
+  const double n = floor(t / period);
+  return (struct seen){t - n * period < 0.02 ? 1 : 0, 7};
+}
+static struct seen restless(double t) {
+  return moves_each(t, 0.97);
+}
+static struct seen calm(double t) {
+  return moves_each(t, 1.03);
+}
+
 static struct seen nothing(double t) {
   return (struct seen){t < 3 ? GSL_NAN : 0, 7};
 }
@@ -78,6 +90,9 @@ static void test_motions(void) {
   CHECK(rests_at(avalanches, &paper, dt, end) == GSL_POSINF);
   CHECK(rests_at(swinging, &paper, dt, end) == GSL_POSINF);
   CHECK_CLOSE(rests_at(nothing, &paper, dt, end), 5, 2 * dt);
+  CHECK(rests_at(restless, &paper, dt, end) == GSL_POSINF);
+  /* the fifth lull has its second after 5 s */
+  CHECK_CLOSE(rests_at(calm, &paper, dt, end), 4 * 1.03 + 0.02 + 1, 2 * dt);
   const double want = 5 / (1 - exp(-0.25)) - 1;
   CHECK_CLOSE(rests_at(slower_and_slower, &paper, dt, end), want,
               sample + 2 * dt);

@@ -224,6 +224,45 @@ static void test_fill(void) {
   }
 }
 
+static int grid(double radius, double a, double b, size_t count, double *top) {
+  const struct fill f = {.count = count,
+                         .radius = radius,
+                         .mass = 1,
+                         .base = {a, b},
+                         .seed = 1};
+  struct bed bed;
+  const int status = fill_grid(&f, &bed);
+  if (status != GSL_SUCCESS)
+    return status;
+  *top = gsl_stats_max(bed.x + 2, 3, bed.n);
+  bed_free(&bed);
+  return GSL_SUCCESS;
+}
+
+/* What fits exactly is in, although 0.3/0.1 is 2.9999999999999996. */
+static void test_rounding(void) {
+  double top = 0;
+  CHECK(0.3 / 0.1 < 3 && 2.5 * 0.04 == 0.1);
+  CHECK(grid(0.04, 0.3, 0.3, 9, &top) == GSL_SUCCESS);
+  CHECK_REL(top, 0.05, 1e-15); /* one layer of 3 by 3 */
+  CHECK(grid(0.04, 0.3, 0.3, 10, &top) == GSL_SUCCESS);
+  CHECK_REL(top, 0.15, 1e-15);
+  CHECK(grid(0.04, 0.0999, 0.3, 1, &top) == GSL_EINVAL);
+  /* an end to the number of spheres across */
+  CHECK(grid(0.04, 1e5, 0.1, 2, &top) == GSL_SUCCESS);
+  CHECK(grid(0.04, 1.1e5, 0.1, 2, &top) == GSL_EINVAL);
+  /* 27 of a third of the radius share a place */
+  struct bed b;
+  CHECK(bed_alloc(&b, 9 + 27) == GSL_SUCCESS);
+  for (size_t i = 0; i < b.n; i++)
+    b.r[i] = i < 9 ? 0.3 : 0.1;
+  const struct fill f = {.base = {7.5 * 0.3, 7.5 * 0.3}, .seed = 1};
+  CHECK(fill_grid_of(&f, NULL, &b) == GSL_SUCCESS);
+  CHECK_REL(gsl_stats_max(b.x + 2, 3, b.n), (1 + 5. / 6) * 0.75, 1e-14);
+  CHECK_REL(gsl_stats_max(b.x + 27, 3, 27), 0.75 * 5 / 6, 1e-14);
+  bed_free(&b);
+}
+
 static void refused(enum sizes_kind kind, double a, double b) {
   struct sizes *s;
   CHECK(sizes_alloc(&s, kind, false, a, b) == GSL_SUCCESS);
@@ -275,6 +314,7 @@ int main(void) {
   test_seeds();
   test_masses();
   test_fill();
+  test_rounding();
   test_wrong();
   return check_done();
 }
