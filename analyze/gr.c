@@ -95,10 +95,12 @@ int verb_gr(int argc, char **argv) {
           "                out of it are exact\n"
           "  coordination  mean number of partners up to the bin's end\n"
           "Add pairs and expected of several beds to average their g. Without\n"
-          "--box it is the box that the centres span; periodic sides are none\n"
-          "of its faces, and images count as partners. A box should hold all\n"
-          "centres or lie well inside: one that cuts off the layer at a wall\n"
-          "finds too few spheres at its faces, and a g that is too large.",
+          "--box it is the box that the centres span or, in a tube, the\n"
+          "cylinder; periodic sides are none of its faces, and images count "
+          "as\n"
+          "partners. A box should hold all centres or lie well inside: one\n"
+          "that cuts off the layer at a wall finds too few spheres at its\n"
+          "faces, and a g that is too large.",
       .usage = "gr [OPTION...] [FILE...]",
       .example = "settle --model basic | analyze gr > gr.tsv",
       .options = options};

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "measure.h"
 
+#include <float.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -277,6 +278,38 @@ static void centres_span(const struct bed *b, size_t axis, double margin,
   face[1] = high - margin;
 }
 
+/* The piece of a tube that the centres span, less margin. */
+static void tube_span(const struct bed *b, const struct wall *tube,
+                      double margin, struct region *region) {
+  double low = GSL_POSINF, high = GSL_NEGINF, most = 0;
+  for (size_t i = 0; i < b->n; i++) {
+    double d[3], normal[3];
+    vec3_sub(b->x + 3 * i, tube->point, d);
+    const double along = vec3_dot(d, tube->normal);
+    low = fmin(low, along);
+    high = fmax(high, along);
+    most = fmax(most,
+                tube->radius - cylinder_distance(tube, b->x + 3 * i, normal));
+  }
+  /* the furthest centre, too, in spite of rounding */
+  region->radius = fmax(DBL_MIN, most * (1 + 1e-12) - margin);
+  memcpy(region->point, tube->point, sizeof region->point);
+  memcpy(region->axis, tube->normal, sizeof region->axis);
+  region->ends[0] = low + margin;
+  region->ends[1] = high - margin;
+}
+
+const struct wall *scene_tube(const struct scene *s, size_t *count) {
+  const struct wall *tube = NULL;
+  *count = 0;
+  for (size_t k = 0; k < s->walls_count; k++)
+    if (s->walls[k].radius > 0) {
+      tube = &s->walls[k];
+      ++*count;
+    }
+  return tube;
+}
+
 struct region frame_region(const struct frames *f, const struct bed *b,
                            const struct option_list *given, double margin) {
   struct region region = {0};
@@ -291,6 +324,10 @@ struct region frame_region(const struct frames *f, const struct bed *b,
     if (!(scene.period[k] > 0))
       centres_span(b, k, margin, region.box + 2 * k);
   }
+  size_t tubes;
+  const struct wall *tube = scene_tube(&scene, &tubes);
+  if (tubes == 1 && !periodic_any(scene.period))
+    tube_span(b, tube, margin, &region);
   scene_free(&scene);
   return region;
 }

@@ -95,8 +95,12 @@ void frame_check_box(const struct frames *f, const struct bed *b,
    frame that cannot be measured. */
 void frame_check(const struct frames *f, const struct bed *b, int status);
 
+/* The last cylinder among the walls, and how many there are; NULL for none. */
+const struct wall *scene_tube(const struct scene *s, size_t *count);
+
 /* Where centres are looked at: the box that was given, or all that the centres
-   span, less margin (m) on every side, and all of a periodic axis. */
+   span, less margin (m) on every side: a box, with all of a periodic axis, or,
+   of a bed in one tube without periodic sides, the inside of a cylinder. */
 struct region frame_region(const struct frames *f, const struct bed *b,
                            const struct option_list *given, double margin);
 

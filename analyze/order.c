@@ -119,8 +119,8 @@ int verb_order(int argc, char **argv) {
              "qbar6 from which a sphere is ordered"),
       BOX_OPTION(set.box, "spheres with their centre in a box"),
       NUMBER("margin", &set.margin, 0, OPTION_MANY, "diameters",
-             "without --box: centres this far inside the box they span, "
-             "whose periodic sides are no faces"),
+             "without --box: centres this far inside the box, or in a tube "
+             "the cylinder, that they span; periodic sides are no faces"),
       {.name = "spheres", .type = OPTION_FLAG, .value = &set.spheres,
        .help = "one block per frame: one row per sphere"},
       MEAN_OPTION(mean),

@@ -176,15 +176,11 @@ static void make_turn(const double axis[3], double turn[3][3]) {
 static struct tube tube_of_bed(const struct frames *f, const struct bed *b,
                                const struct option_list *along) {
   struct scene s = frame_scene(f, b);
-  const struct wall *wall = NULL;
-  for (size_t k = 0; k < s.walls_count; k++)
-    if (s.walls[k].radius > 0) {
-      if (wall)
-        frame_refuse(f, b,
-                     "--radial: the header has several cylinders, "
-                     "expected one");
-      wall = &s.walls[k];
-    }
+  size_t count;
+  const struct wall *wall = scene_tube(&s, &count);
+  if (count > 1)
+    frame_refuse(f, b,
+                 "--radial: the header has several cylinders, expected one");
   if (!wall)
     frame_refuse(f, b,
                  "--radial: the header has no cylinder, expected "

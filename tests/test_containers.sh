@@ -207,6 +207,21 @@ within 'fcc: pairs that touch' "$(awk '{ n += $4 } END { print n }' "$T/tsv")" \
 within 'fcc: the radius at which spheres touch' \
   "$(awk '$2 == "touching" { print $3 }' "$T/tsv")" 0.0999999999 0.1000000001
 refused 3 'the header has a cylinder' "$B/analyze" export --format raw --walls "$T/rest.bed"
+# a tube has no corners: the centres of the bed are in the cylinder they span, of
+# which all pairs are found and expected
+"$B/analyze" gr --rmax 20 --bins 100 "$T/rest.bed" > "$T/tsv"
+within 'gr of a tube: all pairs' "$(awk 'NR > 1 { n += $4 } END { print n }' \
+  "$T/tsv")" 435 435
+within 'gr of a tube: all expected' "$(awk 'NR > 1 { n += $5 } END { print n }' \
+  "$T/tsv")" 434.999 435.001
+"$B/analyze" order --margin 0 "$T/rest.bed" > "$T/tsv"
+within 'order of a tube: none is left out' "$(row spheres "$T/tsv")" 30 30
+"$B/analyze" order --margin 0.6 "$T/rest.bed" > "$T/tsv"
+within 'order of a tube: those that are not at the wall' "$(row spheres "$T/tsv")" \
+  "$(awk '/^[0-9]/ { a = sqrt(($2 - 0.3)^2 + ($3 - 0.2)^2); z[n] = $4; r[n++] = a
+    if (a > most) most = a; if (n == 1 || $4 < low) low = $4; if ($4 > high) high = $4 }
+    END { for (k = 0; k < n; k++) if (r[k] <= most - 0.12 && z[k] >= low + 0.12 &&
+      z[k] <= high - 0.12) in_++; print in_ + 0 }' "$T/rest.bed")" 20
 # the square inscribed in a tube
 half=$(awk 'BEGIN { printf "%.17g", 0.35 * sqrt(0.5) }')
 "$B/analyze" "$T/rest.bed" > "$T/a.tsv"

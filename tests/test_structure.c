@@ -145,6 +145,44 @@ static void test_random_points(unsigned long seed, bool periodic) {
   free(x);
 }
 
+/* The same in a tube of no particular direction; and with shells that reach
+   through all of it, where the expected pairs are all pairs. */
+static void test_tube_points(unsigned long seed) {
+  enum { N = 1000, BINS = 30 };
+  const struct region tube = {.radius = 0.4,
+                              .point = {3, -2, 7},
+                              .axis = {1. / 3, 2. / 3, -2. / 3},
+                              .ends = {-0.5, 1.2}};
+  const double side[3] = {2. / 3, 1. / 3, 2. / 3};
+  double across[3], x[3 * N], pairs[BINS], expected[BINS];
+  vec3_cross(tube.axis, side, across);
+  gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+  gsl_rng_set(rng, seed);
+  for (size_t i = 0; i < N; i++) {
+    const double a = 0.4 * sqrt(gsl_rng_uniform(rng));
+    const double angle = 2 * M_PI * gsl_rng_uniform(rng);
+    memcpy(x + 3 * i, tube.point, 3 * sizeof *x);
+    vec3_axpy(a * cos(angle), side, x + 3 * i);
+    vec3_axpy(a * sin(angle), across, x + 3 * i);
+    vec3_axpy(uniform(rng, -0.5, 1.2), tube.axis, x + 3 * i);
+    CHECK(region_holds(&tube, x + 3 * i));
+  }
+  gsl_rng_free(rng);
+  CHECK(correlation_count(N, x, &tube, 0.9, BINS, NULL, pairs, expected) ==
+        GSL_SUCCESS);
+  double chi2 = 0, sum = 0;
+  for (size_t k = 0; k < BINS; k++)
+    chi2 += gsl_pow_2(pairs[k] - expected[k]) / expected[k];
+  const double p = gsl_cdf_chisq_Q(chi2, BINS);
+  if (!CHECK(p > 1e-4 && p < 1 - 1e-4))
+    fprintf(stderr, "  seed %lu: chi2 %g of %d, p %g\n", seed, chi2, BINS, p);
+  CHECK(correlation_count(N, x, &tube, hypot(0.8, 1.7) * 1.001, BINS, NULL,
+                          pairs, expected) == GSL_SUCCESS);
+  for (size_t k = 0; k < BINS; k++)
+    sum += expected[k];
+  CHECK_REL(sum, N * (N - 1) / 2., 1e-9);
+}
+
 /* q_l^2 = mean of P_l(cos) over all pairs of bonds, by the addition theorem: no
    spherical harmonics. */
 static double oracle_q(const struct bed *b, size_t i, double cutoff, int l) {
@@ -435,6 +473,8 @@ int main(void) {
   for (unsigned long seed = 1; seed <= 2; seed++)
     for (int periodic = 0; periodic < 2; periodic++)
       test_random_points(seed, periodic);
+  test_tube_points(1);
+  test_tube_points(2);
   test_averages();
   return check_done();
 }

@@ -20,6 +20,7 @@
 #include "geometry/vec3.h"
 #include "geometry/area.h"
 #include "geometry/box.h"
+#include "geometry/tube.h"
 #include "geometry/volume.h"
 #include "sample.h"
 
@@ -1114,6 +1115,56 @@ static void test_full(void) {
   gsl_rng_free(rng);
 }
 
+/* --- balls in a tube
+ * --------------------------------------------------------*/
+
+/* Of one ball: the areas of all shells about the axis, found in another way. */
+static double oracle_tube_shell(double radius, void *params) {
+  const double *p = params; /* away, low, high, r */
+  const double x[3] = {p[0], 0, 0};
+  const struct area_shell shell = {{0, 0}, radius, {p[1], p[2]}};
+  double sum, all = GSL_NAN;
+  area_shell_covered(1, x, &p[3], &shell, &sum, &all);
+  return all;
+}
+
+static void test_tube(void) {
+  const double inf = GSL_POSINF;
+  /* away from the mantle; on the axis; Viviani's; all of a piece of tube */
+  CHECK_CLOSE(tube_ball_volume(0.3, 2, -inf, inf, 1), BALL, 4e-15 * BALL);
+  CHECK_CLOSE(tube_ball_volume(0.3, 2, 0.2, 5, 1), cap(1, 0.2), 4e-15);
+  CHECK_CLOSE(tube_ball_volume(0, 0.6, -inf, inf, 1), BALL * (1 - 0.512),
+              4e-15 * BALL);
+  CHECK_CLOSE(tube_ball_volume(0.5, 0.5, -inf, inf, 1), 2 * M_PI / 3 - 8. / 9,
+              1e-10);
+  CHECK_CLOSE(tube_ball_volume(0.2, 0.7, -1, 2, 50), 3 * M_PI * 0.49, 1e-13);
+  CHECK(tube_ball_volume(0.2, 0.7, 1, 2, 0.5) == 0);
+  CHECK(tube_ball_volume(3, 0.7, -1, 2, 0.5) == 0);
+  gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+  gsl_integration_workspace *w = gsl_integration_workspace_alloc(2000);
+  int exact = 0;
+  for (int k = 0; k < 60; k++) {
+    const double R = uniform(rng, 0.1, 1.5), away = uniform(rng, 0, 1) * R;
+    const double low = uniform(rng, -1.2, 0.5);
+    const double high = low + uniform(rng, 0, 2);
+    double p[4] = {away, low, high, 1}, want, error;
+    gsl_function f = {oracle_tube_shell, p};
+    gsl_integration_qag(&f, 0, R, 1e-11, 1e-11, 2000, GSL_INTEG_GAUSS21, w,
+                        &want, &error);
+    const double got = tube_ball_volume(away, R, low, high, 1);
+    CHECK_CLOSE(got, want, 1e-6);
+    exact += fabs(got - want) <= 1e-10 + 2 * error;
+    /* and the pieces of a tube are the whole */
+    const double middle = uniform(rng, low, high);
+    CHECK_CLOSE(tube_ball_volume(away, R, low, middle, 1) +
+                    tube_ball_volume(away, R, middle, high, 1),
+                got, 2e-6);
+  }
+  CHECK(exact >= 57);
+  gsl_integration_workspace_free(w);
+  gsl_rng_free(rng);
+}
+
 int main(void) {
   /* quadrature at the limit of rounding says so; its estimates are checked */
   gsl_set_error_handler_off();
@@ -1134,5 +1185,6 @@ int main(void) {
   test_identities();
   test_full();
   test_sampled();
+  test_tube();
   return check_done();
 }
