@@ -11,6 +11,7 @@
 #include "geometry/periodic.h"
 #include "geometry/volume.h"
 #include "files/radius_keys.h"
+#include "model/base_box.h"
 #include "program/scene_options.h"
 
 void box_check(const struct option_list *box) {
@@ -49,25 +50,6 @@ struct scene frame_scene(const struct frames *f, const struct bed *b) {
   return s;
 }
 
-void header_walls(const struct bed_header *h, double box[6], bool walled[6]) {
-  memset(walled, 0, 6 * sizeof *walled);
-  for (size_t i = 0; i < h->count; i++) {
-    struct option_list wall;
-    struct option_spec spec = {
-        .type = OPTION_LIST, .value = &wall, .least = 6, .most = 6};
-    if (strcmp(h->at[i].name, "wall") || option_set(&spec, h->at[i].value))
-      continue;
-    const double *normal = wall.at + 3;
-    for (int k = 0; k < 3; k++)
-      if (normal[k] != 0 && normal[(k + 1) % 3] == 0 &&
-          normal[(k + 2) % 3] == 0) {
-        const int face = 2 * k + (normal[k] > 0);
-        box[face] = wall.at[k];
-        walled[face] = true;
-      }
-  }
-}
-
 /* The numbers of a key, count of them; false if that is not what it has. */
 static bool header_numbers(const char *value, double count,
                            struct option_list *numbers) {
@@ -76,41 +58,42 @@ static bool header_numbers(const char *value, double count,
   return value && !option_set(&spec, value);
 }
 
-/* Where periodic sides are instead of walls, or an upright tube, its inscribed
-   square. */
-static void header_sides(const struct bed_header *h, double box[6],
-                         bool sided[6]) {
+/* The walls and periodic sides of a header, without what is no such key; to be
+   freed. */
+static struct scene header_container(const struct bed_header *h) {
+  struct scene s = {0};
   struct option_list v;
+  int status = GSL_SUCCESS;
+  for (size_t i = 0; i < h->count && status != GSL_ENOMEM; i++) {
+    const char *value = h->at[i].value;
+    if (!strcmp(h->at[i].name, "wall") && header_numbers(value, 6, &v))
+      status = scene_add_wall(&s, v.at, v.at + 3);
+    if (!strcmp(h->at[i].name, "cylinder") && header_numbers(value, 7, &v))
+      status = scene_add_cylinder(&s, v.at, v.at + 3, v.at[6]);
+  }
+  if (status == GSL_ENOMEM)
+    die(EXIT_IO, "out of memory");
   const char *periodic = bed_header_get(h, "periodic");
   for (int k = 0; k < 2; k++)
     if (periodic && strchr(periodic, "xy"[k]) &&
-        header_numbers(bed_header_get(h, "base"), 2, &v)) {
-      box[2 * k] = 0;
-      box[2 * k + 1] = v.at[k];
-      sided[2 * k] = sided[2 * k + 1] = true;
-    }
-  for (size_t i = 0; i < h->count; i++)
-    if (!strcmp(h->at[i].name, "cylinder") &&
-        header_numbers(h->at[i].value, 7, &v) && v.at[3] == 0 && v.at[4] == 0)
-      for (int face = 0; face < 4; face++)
-        if (!sided[face]) {
-          const double half = (face % 2 ? 1 : -1) * v.at[6] * M_SQRT1_2;
-          box[face] = v.at[face / 2] + half;
-          sided[face] = true;
-        }
+        header_numbers(bed_header_get(h, "base"), 2, &v))
+      s.period[k] = v.at[k];
+  return s;
+}
+
+void header_walls(const struct bed_header *h, double box[6], bool walled[6]) {
+  struct scene s = header_container(h);
+  base_faces(&s, box, walled);
+  scene_free(&s);
 }
 
 bool frame_base_box(const struct bed_header *h, double box[6]) {
   static const double unit[6] = {0, 1, 0, 1, 0, 1};
-  double walls[6] = {0};
-  bool walled[6];
-  header_walls(h, walls, walled);
-  header_sides(h, walls, walled);
-  walls[5] = walls[4] + GSL_MIN(walls[1] - walls[0], walls[3] - walls[2]);
-  const bool base =
-      walled[0] && walled[1] && walled[2] && walled[3] && walled[4];
-  const bool valid = base && box_valid(walls);
-  memcpy(box, valid ? walls : unit, sizeof unit);
+  struct scene s = header_container(h);
+  const bool valid = base_box(&s, box);
+  if (!valid)
+    memcpy(box, unit, sizeof unit);
+  scene_free(&s);
   return valid;
 }
 

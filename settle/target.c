@@ -15,7 +15,9 @@
 #include "dynamics/motion.h"
 #include "files/numbers.h"
 #include "geometry/box.h"
+#include "geometry/periodic.h"
 #include "geometry/volume.h"
+#include "model/base_box.h"
 #include "model/rest.h"
 #include "program/integration.h"
 
@@ -38,12 +40,16 @@ struct search {
   double densest, loosest; /* without friction and with the most */
 };
 
+/* Of the bottom cube between the walls, as analyze has it, with images. */
 static double fraction_of(const struct settings *s, const struct bed *b) {
-  const double side = GSL_MIN(s->words.base.at[0], s->words.base.at[1]);
-  const double box[] = {0,   s->words.base.at[0], 0, s->words.base.at[1], 0,
-                        side};
-  double united;
-  const int status = volume_union(b->n, b->x, b->r, box, &united);
+  double box[6], united;
+  struct periodic_images images = {0};
+  base_box(&s->scene, box); /* refuse_options looked */
+  int status =
+      periodic_images_in_box(&images, b->n, b->x, b->r, s->scene.period, box);
+  if (status == GSL_SUCCESS)
+    status = volume_union(images.count, images.x, images.radius, box, &united);
+  periodic_images_free(&images);
   if (status != GSL_SUCCESS)
     die_status(status, "--target-fraction");
   return united / box_volume(box);
@@ -116,12 +122,16 @@ static void line_near(struct search *q, double root, double *intercept,
 
 static void refuse_options(const struct settings *s,
                            struct option_spec *options) {
-  static const char *const others[] = {"scene", "onto",     "friction",
-                                       "wall",  "cylinder", "periodic"};
+  static const char *const others[] = {"scene", "onto", "friction"};
   for (size_t k = 0; k < sizeof others / sizeof *others; k++)
     if (option_find(options, others[k])->given)
       die(EXIT_USAGE, "--target-fraction: expected no --%s beside it",
           others[k]);
+  double box[6];
+  if (!base_box(&s->scene, box))
+    die(EXIT_USAGE,
+        "--target-fraction: needs a bottom cube, expected a floor "
+        "and sides along x and y, periodic ones or an upright tube");
   if (!scene_has_friction(&s->scene))
     die(EXIT_USAGE, "--target-fraction: is reached by friction, expected "
                     "another model than basic");

@@ -39,6 +39,7 @@ declare -A makes=(
   [stability-vibration]='stability-vibration.svg'
   [stability-wrong-bed]='stability-wrong-bed.svg'
   [bench]='bench.svg bench.md:24 scaling.svg scaling.md:2'
+  [features]='features.md:9'
   [bench-peers]='peers.md:2' [growth]='growth.svg growth.md:6'
 )
 # Targets that make no figure; bench-clean comes last.

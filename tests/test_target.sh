@@ -62,6 +62,30 @@ within 'from the loosest' "$a" "$(awk -v x="$least" 'BEGIN { print x - 0.04 }')"
 within 'to the densest' "$b" "$(awk -v x="$most" 'BEGIN { print x - 0.04 }')" \
   "$(awk -v x="$most" 'BEGIN { print x + 0.04 }')"
 
+# in other containers, measured as analyze does: images, and the square in a tube
+while read -r -a walls; do
+  most=$("$B/settle" --quiet --count 40 --time 1.5 "${walls[@]}" --friction 0 |
+    fraction -)
+  x=$(awk "BEGIN { printf \"%.3f\", $most - 0.02 }")
+  "$B/settle" --quiet --count 40 --time 1.5 "${walls[@]}" --target-fraction "$x" \
+    > "$T/bed" 2> "$T/err"
+  check "${walls[*]}: found" test $? = 0
+  within "${walls[*]}: the densest" \
+    "$(sed -n 's/.* of \([0-9.]*\) without friction.*/\1/p' "$T/err")" \
+    "$(awk "BEGIN { print $most - 0.0006 }")" "$(awk "BEGIN { print $most + 0.0006 }")"
+  said=$(awk '/the bed fills/ { print $NF }' "$T/err")
+  within "${walls[*]}: it says what it fills" "$(fraction "$T/bed")" \
+    "$(awk -v s="$said" 'BEGIN { print s - 0.00006 }')" \
+    "$(awk -v s="$said" 'BEGIN { print s + 0.00006 }')"
+  said=
+done << END
+--cylinder 0.3,0.2,0,0,0,1,0.35
+--periodic xy --base 0.6,0.62
+--periodic x --base 0.6,0.5
+--lid 9 --base 0.6,0.6
+--wall 0,0,0,0,0,-1 --wall 0.1,0,0,-1,0,0 --wall 0.7,0,0,1,0,0 --wall 0,0.1,0,0,-1,0 --wall 0,0.7,0,0,1,0 --base 0.8,0.8
+END
+
 refuse() { # PATTERN OPTION...
   "$B/settle" --quiet "${@:2}" --target-fraction 0.6 >"$T/out" 2>"$T/err"
   check "${*:2}: exit status" test $? = 2
@@ -69,8 +93,8 @@ refuse() { # PATTERN OPTION...
 }
 refuse 'no --friction' --friction 0.3
 refuse 'no --scene' --scene "$T/bed"
-refuse 'no --wall' --wall 0,0,0,0,0,-1
+refuse 'needs a bottom cube' --wall 0,0,0,0,0,-1
+refuse 'needs a bottom cube' --count 1 --cylinder 0.5,0.5,1,0,1,1,2
 refuse 'another model than basic' --model basic
-refuse 'no --periodic' --periodic xy
 refuse 'no --step' --step 1e-4 --method verlet
 check_done

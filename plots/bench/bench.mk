@@ -48,6 +48,15 @@ $(F)/scaling.md: $(BENCH)/scaling.tsv
 $(F)/scaling.svg: plots/bench/scaling.gp plots/style.gp $(BENCH)/scaling.tsv
 	$(draw)
 
+# What each feature of a scene costs
+FEATURES_QUICK := ROUNDS=2 SIZE='--count 30 --base 0.6,0.6 --time 0.7'
+features: $(F)/features.md ## CPU time of each container and law, by the plain scene's
+	@cat $<
+$(BENCH)/features.tsv: plots/bench/features.sh | $(B)/settle
+	@mkdir -p $(@D)
+	B=$(B) $(if $(QUICK),$(FEATURES_QUICK)) $< > $@
+$(F)/features.md: $(BENCH)/features.tsv
+
 PEERS_QUICK := SEEDS=1 STEP=4 TIME=0.5
 bench-peers: $(F)/peers.md ## LAMMPS and LIGGGHTS on the same 200 spheres, where installed
 	@cat $<
@@ -104,4 +113,4 @@ $(F)/growth.svg: plots/bench/growth.gp plots/style.gp $(BENCH)/growth.tsv
 bench-clean: ## remove the data of the benchmarks
 	rm -rf $(BENCH)
 
-.PHONY: bench bench-peers growth bench-clean
+.PHONY: bench bench-peers features growth bench-clean
