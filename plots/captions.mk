@@ -13,7 +13,7 @@ SHOWN := bench budget fig4.3 friction gr growth handover hardness \
   precision-contrast precision-horizon precision-settling \
   stability-creep stability-cut stability-drift \
   stability-map stability-regions stability-steps stability-tunnel \
-  stability-vibration stability-wrong-bed walls
+  stability-vibration stability-wrong-bed tubes walls
 SHOWN_AS := \
   mixtures-fraction=mixtures \
   precision-bounce=precision-bounce-150-inelastic-time-evaluations \

@@ -2,7 +2,7 @@
 # Pair correlation of the spheres' centres, one block of the file per variant,
 # with bands of its 95 % confidence over the beds.
 #   gnuplot -c plots/beds/gr.gp IN OUT
-# IN: columns variant, r, g, interval.
+# IN: columns variant, r, g, interval; to its largest r.
 set loadpath system("dirname '".ARG0."'")."/.."
 key_rows = 1
 columns = "variant r g interval"
@@ -13,10 +13,11 @@ array variant[blocks]
 do for [b=1:blocks] {
   stats ARG1 index b-1 using (variant[b] = strcol("variant"), 0) nooutput
 }
+stats ARG1 using "r" nooutput
 
 set xlabel "distance of the centres {/:Italic r} (nominal diameters)"
 set ylabel "pair correlation {/:Italic g}({/:Italic r})"
-set xrange [0.8:3]
+set xrange [0.8:STATS_max]
 # what tells the beds apart is below the first peak
 set logscale y
 set yrange [0.2:8]

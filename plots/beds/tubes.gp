@@ -7,7 +7,7 @@
 # SIZE: columns N, seeds, void, standard error.
 # docs/walls.md has the sources of the formulas.
 set loadpath system("dirname '".ARG0."'")."/.."
-height = 1060
+height = 1000
 columns = "N void"
 call "style.gp" "beds/tubes.gp PROFILE SIZE OUT" ARG3 ARG1 ARG2
 
@@ -24,6 +24,7 @@ do for [b=1:blocks] {
   stats ARG1 index b-1 using (size[b] = column("N"), 0) nooutput
 }
 array colour[3] = [vermillion, green, blue]
+array dash[3] = [2, 4, 1]
 
 set key samplen 2 maxrows 2
 set multiplot
@@ -35,16 +36,16 @@ set xrange [0:4]
 set yrange [0:1]
 set key at screen 0.53,0.545 center bottom
 plot for [b=1:blocks] ARG1 index b-1 using "distance":"void" with lines \
-    lw line dt b lc rgb colour[b] title sprintf("tube of %g", size[b]), \
+    lw line dt dash[b] lc rgb colour[b] title sprintf("tube of %g", size[b]), \
   [0:4] de_klerk(x) with lines lw line dt 3 lc rgb black title "de Klerk 2003"
-set tmargin at screen 0.52
-set bmargin at screen 0.195
+set tmargin at screen 0.5
+set bmargin at screen 0.17
 set xlabel "width of the tube (diameters)"
 set logscale x
 set xrange [1.8:22]
-set yrange [0.36:0.64]
+set yrange [0.36:0.6]
 set xtics (2, 3, 4, 5, 7, 10, 15, 20)
-set key at screen 0.53,0.005 center bottom maxrows 3
+set key at screen 0.53,0.01 center bottom maxrows 2
 plot ARG2 using "N":"void":"standard error" with yerrorbars pt 7 ps symbol \
     lw thin lc rgb blue title "settled, standard error", \
   [1.8:22] benyahia(x) with lines lw line dt 1 lc rgb sky \
