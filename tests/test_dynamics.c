@@ -313,6 +313,10 @@ static void test_touching(gsl_rng *rng) {
     s.bed.v[1] = s.scene.law.vmin * (1 + k * DBL_EPSILON);
     against_oracle(&s, "slip of vmin", 0);
   }
+  /* radii that are the same but for a few bits are not: 1.5e-11 of the force */
+  s.bed.r[1] = s.bed.r[0] * (1 + 1e-12);
+  s.bed.x[3] = 0.05;
+  against_oracle(&s, "almost the same radius", 0);
   sample_free(&s);
 }
 
@@ -463,6 +467,39 @@ static void test_history(gsl_rng *rng, enum scene_model model, size_t n,
   free(y);
   free(got);
   free(want);
+  sample_free(&s);
+}
+
+/* A skin as wide as lets rebuilding and idle pairs cost the same, whatever the
+   speed. All move by d in each evaluation: a skin s lasts for s/(2 d) of them,
+   of which idle pairs take 3 s/(2 r + lmax + s), and a list costs four. */
+static void test_skin(gsl_rng *rng) {
+  enum { EVALUATIONS = 3000 };
+  const double r = 0.1, cost = 4;
+  gsl_rng_set(rng, 1);
+  struct recipe p = {SCENE_BASIC, 1, 0, false, false, 100, 0, 0.19, 1};
+  struct sample s = random_sample(rng, &p);
+  const double ways[] = {3e-3, 1e-3, 1e-4};
+  for (size_t k = 0; k < 3; k++) {
+    const double d = ways[k], reach = 2 * r + s.scene.law.lmax;
+    struct dynamics *list = new_dynamics(&s, &cells);
+    const size_t dim = dynamics_dimension(list);
+    double *y = numbers(dim), *dydt = numbers(dim);
+    dynamics_pack(list, &s.bed, y);
+    for (int step = 0; step < EVALUATIONS; step++) {
+      CHECK(dynamics_rhs(0, y, dydt, list) == GSL_SUCCESS);
+      for (size_t i = 0; i < dim; i += dynamics_stride(list))
+        y[i] += d;
+    }
+    /* 3 s^2 = 2 d cost (reach + s) */
+    const double b = 2 * d * cost / 3,
+                 skin = b / 2 + sqrt(b * b / 4 + b * reach);
+    const double want = EVALUATIONS * 2 * d / skin;
+    CHECK_CLOSE((double)dynamics_counts(list).builds, want, 0.15 * want);
+    dynamics_free(list);
+    free(y);
+    free(dydt);
+  }
   sample_free(&s);
 }
 
@@ -1280,6 +1317,7 @@ static void test_kernel(gsl_rng *rng, unsigned long kernel) {
   test_touching(rng);
   test_threads(rng);
   test_stage(rng);
+  test_skin(rng);
   for (int m = 0; m < 3; m++) {
     test_history(rng, models[m], 70, 360, kernel == 0);
     test_history(rng, models[m], 1100, 24, kernel == 0);

@@ -225,11 +225,8 @@ static void test_fill(void) {
 }
 
 static int grid(double radius, double a, double b, size_t count, double *top) {
-  const struct fill f = {.count = count,
-                         .radius = radius,
-                         .mass = 1,
-                         .base = {a, b},
-                         .seed = 1};
+  const struct fill f = {
+      .count = count, .radius = radius, .mass = 1, .base = {a, b}, .seed = 1};
   struct bed bed;
   const int status = fill_grid(&f, &bed);
   if (status != GSL_SUCCESS)

@@ -334,6 +334,23 @@ static void test_first_sphere(void) {
   CHECK_REL(way[0], (10 + 100 * 0.1) / 101, 101 * DBL_EPSILON);
 }
 
+/* A list holds for states within half of its skin of where it was made. */
+static void test_holds(gsl_rng *rng) {
+  gsl_rng_set(rng, 1);
+  struct sample s = random_sample(rng, 60, 1);
+  const double half = s.list->skin / 2, ways[] = {0.99, 1.01, GSL_NAN};
+  CHECK(half > 0);
+  for (size_t k = 0; k < 3; k++) {
+    double *x = s.y + 7 * s.list->stride;
+    const double whole = x[1];
+    x[1] += ways[k] * half;
+    CHECK(contact_list_holds(s.list, s.y) == (k == 0));
+    x[1] = whole;
+    CHECK(contact_list_holds(s.list, s.y));
+  }
+  sample_free(&s);
+}
+
 int main(void) {
   gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
   if (!rng)
@@ -343,6 +360,7 @@ int main(void) {
     test_split(rng, seed);
     test_islands(rng, seed);
   }
+  test_holds(rng);
   test_threads(rng);
   test_empty(rng);
   test_first_sphere();

@@ -31,6 +31,22 @@ for verb in "${verbs[@]}"; do
     "$T/got"
 done
 
+# two frames: one table, parts with an empty line between them, or blocks with
+# names of their own and two empty lines, which gnuplot calls an index
+while read -r names gaps verb; do
+  # shellcheck disable=SC2086
+  "$B/analyze" $verb "$T/1" 2>/dev/null >"$T/got"
+  check "$verb: names in $names places" test "$(grep -c '^t' "$T/got")" = "$names"
+  check "$verb: $gaps empty lines" test "$(grep -c '^$' "$T/got")" = "$gaps"
+done <<'END'
+1 0 fraction
+1 0 contacts
+1 1 fraction --slab 0.2
+1 1 profile --points 5
+2 2 contacts --degrees
+2 2 gr --bins 20
+END
+
 # mean and standard error: the k-th rows of all beds
 mean() { # VERB: from the table without --mean; rows of beds that have as many
   awk -F '\t' '
