@@ -143,6 +143,13 @@ wrong 1 'LAMMPS: ERROR: Cannot open file none' "$T/broken"
 cp -r "$T/scene" "$T/other"
 sed -i '/^variable dem_run/d' "$T/other/in.scene"
 wrong 3 'expected the variable dem_run' "$T/other"
+# that only one rank meets: the last sphere is on the other one
+cp -r "$T/scene" "$T/type"
+sed -i -E '/^Atoms/,/^Velocities/s/^24 1 /24 7 /' "$T/type/bed.data"
+wrong 1 'LAMMPS: ERROR on proc 0: Invalid atom type' "$T/type"
+host 2 "$T/type" >"$T/out"
+check 'an error on one of two ranks' test $? = 1 -a ! -s "$T/out" -a \
+  "$(grep -c 'settle-lammps: LAMMPS: ERROR on proc 1: Invalid' "$T/err")" = 1
 # a sphere that leaves the box of LAMMPS
 cp -r "$T/scene" "$T/lost"
 sed -i 's/^boundary.*/boundary f f f/; s/^fix walls.*//' "$T/lost/in.scene"

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <ctime>
 #include <fstream>
+#include <new>
 #include <string>
 #include <unistd.h>
 #include <vector>
@@ -47,16 +48,34 @@ enum { MOVING = 1, FIXED }; /* types of spheres in bed.data */
 
 static int rank;
 static bool finished; /* LAMMPS ends a process where it meets an error */
+static FILE *said;    /* what it says on other ranks than the first */
+
+/* An error that one rank meets is in its own messages only. */
+static void tell_error() {
+  FILE *log = rank ? said : fopen("log.lammps", "r");
+  char line[512], error[512] = "log.lammps says why";
+  if (log)
+    rewind(log);
+  while (log && fgets(line, sizeof line, log))
+    if (strncmp(line, "ERROR", 5) == 0) {
+      line[strcspn(line, "\n")] = 0;
+      strcpy(error, line);
+    }
+  fprintf(stderr, "settle-lammps: LAMMPS: %s\n", error);
+}
 
 static void ended_by_lammps() {
-  if (finished || rank != 0)
-    return;
-  std::ifstream log("log.lammps");
-  std::string line, error = "log.lammps says why";
-  while (std::getline(log, line))
-    if (line.compare(0, 5, "ERROR") == 0)
-      error = line;
-  fprintf(stderr, "settle-lammps: LAMMPS: %s\n", error.c_str());
+  if (!finished && rank == 0)
+    tell_error();
+}
+
+/* LAMMPS calls it where one rank meets an error, and nothing else then runs on
+   any rank. */
+extern "C" int MPI_Abort(MPI_Comm world, int code) {
+  if (!finished)
+    tell_error();
+  finished = true;
+  return PMPI_Abort(world, code);
 }
 
 /* The same on all ranks, which all come here. */
@@ -67,6 +86,14 @@ static void ended_by_lammps() {
   MPI_Barrier(MPI_COMM_WORLD);
   MPI_Finalize();
   exit(status);
+}
+
+/* Others may have some. */
+[[noreturn]] static void no_memory() {
+  finished = true;
+  fprintf(stderr, "settle-lammps: out of memory on rank %d\n", rank);
+  PMPI_Abort(MPI_COMM_WORLD, IO);
+  exit(IO);
 }
 
 /* What in.scene says to us. */
@@ -156,11 +183,11 @@ Bed::Bed(LAMMPS *l, const plan &p)
   if (!(set.travel > 0) || skin < 4 * cap)
     die(INPUT, "in.scene: the skin of neighbor must be 4 travels of a step");
   if (rows_alloc(&rows, &scene, pair->equal) != GSL_SUCCESS)
-    die(IO, "out of memory");
+    no_memory();
   stride = rows_stride(rows);
   resize();
   if (rkc_step_init(&step, direction.data()) != GSL_SUCCESS)
-    die(IO, "out of memory");
+    no_memory();
   from_lammps(y.data());
   list();
 }
@@ -242,7 +269,7 @@ void Bed::list() {
   layout.fixed_count = fixed.size();
   layout.skin = skin;
   if (rows_set(rows, &layout) != GSL_SUCCESS)
-    die(IO, "out of memory");
+    no_memory();
   rows_weights(rows, weight.data());
   filled.resize((n + layout.ghosts) * stride + 1);
   for (size_t k = 0; k < n; k++)
@@ -509,7 +536,7 @@ void Bed::rates_at_start(const char *path, bool by_lammps) {
     for (size_t c = 0; c < stride; c++)
       mine.push_back(!by_lammps || c < ROW_V || a->type[i] == FIXED
                          ? f1[i * stride + c]
-                     : c < ROW_W             ? a->f[i][c - ROW_V] / m
+                     : c < ROW_W ? a->f[i][c - ROW_V] / m
                                  : a->torque[i][c - ROW_W] / (0.4 * m * r * r));
   }
   const std::vector<double> all = gathered(width, mine);
@@ -675,11 +702,14 @@ int main(int argc, char **argv) {
     die(INPUT, o.folder + ": no folder with in.scene, as settle "
                           "--export-lammps writes it");
   atexit(ended_by_lammps);
+  std::set_new_handler(no_memory);
   char words[][16] = {"settle-lammps", "-log", "log.lammps",
                       "-screen",       "none", "-nocite"};
   char *arguments[] = {words[0], words[1], words[2],
                        words[3], words[4], words[5]};
   LAMMPS *lammps = new LAMMPS(6, arguments, MPI_COMM_WORLD);
+  if (rank)
+    lammps->screen = said = tmpfile();
   styles_add(lammps);
   lammps->input->file(o.script.empty() ? "in.scene" : o.script.c_str());
   if (o.script.empty()) {
