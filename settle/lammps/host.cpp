@@ -134,6 +134,9 @@ private:
   std::vector<double> y, start, f0, f1, error, weight, direction, work, filled,
       reference;
   double furthest2; /* that a stage was from the reference (m^2) */
+  /* Of the state on all ranks: 1 by the longest step that the cap allows (1/s),
+     the longest way from the reference (m). */
+  double ahead[2];
 
   size_t own() const {
     return static_cast<size_t>(lammps->atom->nlocal);
@@ -148,7 +151,8 @@ private:
   void relay();
   const double *with_ghosts(const double *from);
   rkc_problem problem();
-  double largest(double values[], int n);
+  void look_ahead(double most[2]) const;
+  void largest(double values[], int n);
   bool attempt(double h, double *next);
   std::vector<double> gathered(size_t width, const std::vector<double> &mine);
 
@@ -160,7 +164,7 @@ private:
 
 Bed::Bed(LAMMPS *l, const plan &p)
     : t(p.start), count(), lammps(l), set(p), rows(nullptr), scene(), stride(0),
-      step(), control(), furthest2(0) {
+      step(), control(), furthest2(0), ahead() {
   lammps->input->one("fix dem_rows all dem/rows");
   lammps->input->one("run 0 post no");
   pair = dynamic_cast<PairDem *>(lammps->force->pair);
@@ -358,13 +362,26 @@ double Bed::total(double part, void *params) {
 }
 
 /* Over all ranks; what is not a number is infinite, as MPI_MAX drops it. */
-double Bed::largest(double values[], int n) {
+void Bed::largest(double values[], int n) {
   count.sums++;
   for (int k = 0; k < n; k++)
     if (std::isnan(values[k]))
       values[k] = INFINITY;
   MPI_Allreduce(MPI_IN_PLACE, values, n, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
-  return values[0];
+}
+
+/* This rank's part of ahead. */
+void Bed::look_ahead(double most[2]) const {
+  most[0] = most[1] = 0;
+  for (size_t i = 0; i < own(); i++) {
+    const double *row = &y[i * stride];
+    double way[3];
+    most[0] = std::max(
+        most[0], 1 / travel_time(vec3_norm(row + ROW_V),
+                                 vec3_norm(&f1[i * stride] + ROW_V), cap));
+    vec3_sub(row + ROW_X, &reference[3 * i], way);
+    most[1] = std::max(most[1], vec3_norm(way));
+  }
 }
 
 rkc_problem Bed::problem() {
@@ -390,40 +407,35 @@ bool Bed::attempt(double h, double *next) {
     *next = h / 2;
     return false;
   }
-  double worst[2] = {0, furthest2};
+  double worst[4] = {0, furthest2}; /* one reduction for both */
+  look_ahead(worst + 2);
   for (size_t i = 0; i < p.dim; i++) {
     const double e = std::fabs(error[i]) * weight[i] / set.tol;
     if (!(e <= worst[0]) && !std::isnan(worst[0]))
       worst[0] = e;
   }
-  largest(worst, 2);
+  largest(worst, 4);
   /* beyond what the list holds for the error means nothing, but is large */
   if (!(std::sqrt(worst[1]) <= skin / 2)) {
     *next = h / 10;
     step.power.known = false;
     return false;
   }
-  return predictive_accepts(&control, worst[0], 2, next);
+  if (!predictive_accepts(&control, worst[0], 2, next))
+    return false;
+  std::copy(worst + 2, worst + 4, ahead);
+  return true;
 }
 
 void Bed::integrate() {
   double next = set.hinit;
   rates(t, y.data(), f1.data(), this);
+  look_ahead(ahead);
+  largest(ahead, 2);
   while (t < set.end) {
-    double most[2] = {0, 0}; /* 1/longest step, way from the reference */
-    for (size_t i = 0; i < own(); i++) {
-      const double *row = &y[i * stride];
-      double way[3];
-      most[0] = std::max(
-          most[0], 1 / travel_time(vec3_norm(row + ROW_V),
-                                   vec3_norm(&f1[i * stride] + ROW_V), cap));
-      vec3_sub(row + ROW_X, &reference[3 * i], way);
-      most[1] = std::max(most[1], vec3_norm(way));
-    }
-    largest(most, 2);
-    if (most[1] + 1.5 * cap > skin / 2)
+    if (ahead[1] + 1.5 * cap > skin / 2)
       relay();
-    double h = std::min(next, 1 / most[0]), done;
+    double h = std::min(next, 1 / ahead[0]), done;
     std::copy(y.begin(), y.end(), start.begin());
     std::copy(f1.begin(), f1.end(), f0.begin());
     for (;;) {
