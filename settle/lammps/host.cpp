@@ -5,6 +5,7 @@
    result a bed. docs/beyond-one-machine.md is its page, tests/test_lammps.sh
    tests it. */
 #include <algorithm>
+#include <climits>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -45,6 +46,12 @@ using LAMMPS_NS::NeighList;
 enum { DONE, IO, USAGE, INPUT, INTEGRATION }; /* exit status */
 
 enum { MOVING = 1, FIXED }; /* types of spheres in bed.data */
+
+enum { WIDTH = 13 }; /* numbers of a sphere in the result */
+
+/* Steps that the kernel's pairs serve. Choosing them costs a fourth of an
+   evaluation; they are few if they serve few. */
+enum { NEAR_SERVES = 4 };
 
 static int rank;
 static bool finished; /* LAMMPS ends a process where it meets an error */
@@ -102,8 +109,8 @@ struct plan {
 };
 
 struct counts {
-  size_t evaluations, accepted, rejected, builds, sums;
-  double ghosts; /* summed over evaluations */
+  size_t evaluations, accepted, rejected, builds, near_builds, sums;
+  double ghosts, contacts; /* summed over evaluations */
 };
 
 class Bed {
@@ -133,10 +140,15 @@ private:
   /* of own rows; filled: with ghosts */
   std::vector<double> y, start, f0, f1, error, weight, direction, work, filled,
       reference;
-  double furthest2; /* that a stage was from the reference (m^2) */
+  /* The pairs that the kernel computes are those of LAMMPS within near (m), a
+     smaller skin, of the places in near_reference, which are up to apart (m)
+     from the reference. */
+  std::vector<double> near_reference;
+  double near, apart;
+  double furthest2; /* that a stage was from near_reference (m^2) */
   /* Of the state on all ranks: 1 by the longest step that the cap allows (1/s),
-     the longest way from the reference (m). */
-  double ahead[2];
+     the longest way from the reference and from near_reference (m). */
+  double ahead[3];
 
   size_t own() const {
     return static_cast<size_t>(lammps->atom->nlocal);
@@ -148,12 +160,15 @@ private:
   void to_lammps(const double *from);
   void from_lammps(double *to) const;
   void list();
+  void list_near(const double *from, double wanted);
+  const double *fill(const double *from);
   void relay();
   const double *with_ghosts(const double *from);
   rkc_problem problem();
-  void look_ahead(double most[2]) const;
+  void look_ahead(double most[3]) const;
   void largest(double values[], int n);
   bool attempt(double h, double *next);
+  bool runs_away(double way, double h, double *next);
   std::vector<double> gathered(size_t width, const std::vector<double> &mine);
 
   static int rates(double t, const double y[], double f[], void *bed);
@@ -164,7 +179,7 @@ private:
 
 Bed::Bed(LAMMPS *l, const plan &p)
     : t(p.start), count(), lammps(l), set(p), rows(nullptr), scene(), stride(0),
-      step(), control(), furthest2(0), ahead() {
+      step(), control(), near(0), apart(0), furthest2(0), ahead() {
   lammps->input->one("fix dem_rows all dem/rows");
   lammps->input->one("run 0 post no");
   pair = dynamic_cast<PairDem *>(lammps->force->pair);
@@ -189,11 +204,15 @@ Bed::Bed(LAMMPS *l, const plan &p)
   if (rows_alloc(&rows, &scene, pair->equal) != GSL_SUCCESS)
     no_memory();
   stride = rows_stride(rows);
+  if (lammps->atom->natoms > INT_MAX / WIDTH)
+    die(INPUT, "bed.data: expected at most " + std::to_string(INT_MAX / WIDTH) +
+                   " spheres, which one rank gathers");
   resize();
   if (rkc_step_init(&step, direction.data()) != GSL_SUCCESS)
     no_memory();
   from_lammps(y.data());
   list();
+  list_near(y.data(), skin);
 }
 
 Bed::~Bed() {
@@ -208,6 +227,7 @@ void Bed::resize() {
     v->resize(n);
   work.resize(5 * n);
   reference.resize(3 * own() + 1);
+  near_reference.resize(3 * own() + 1);
   step.power.direction = direction.data();
 }
 
@@ -234,7 +254,7 @@ void Bed::from_lammps(double *to) const {
     take_row(lammps->atom, i, stride, to + i * stride);
 }
 
-/* After LAMMPS has listed pairs: the same for the kernel. */
+/* After LAMMPS has listed pairs: the same as a choice for the kernel. */
 void Bed::list() {
   const Atom *a = lammps->atom;
   const NeighList *l = pair->pairs();
@@ -279,6 +299,20 @@ void Bed::list() {
   for (size_t k = 0; k < n; k++)
     std::copy(a->x[k], a->x[k] + 3, &reference[3 * k]);
   count.builds++;
+  std::fill(ahead + 1, ahead + 3, 0);
+  near = -1; /* there is none */
+}
+
+/* The pairs near these own rows and the ghosts that LAMMPS has. */
+void Bed::list_near(const double *from, double wanted) {
+  apart = ahead[1];
+  near = std::min(wanted, skin - 2 * apart);
+  rows_near(rows, fill(from), near);
+  for (size_t i = 0; i < own(); i++)
+    std::copy(from + i * stride + ROW_X, from + i * stride + ROW_X + 3,
+              &near_reference[3 * i]);
+  ahead[2] = 0;
+  count.near_builds++;
 }
 
 /* Between steps: spheres go to the rank that they are in, which gets new ghosts
@@ -321,14 +355,25 @@ void Bed::relay() {
   list();
 }
 
-/* Own rows, with those of the ghosts after them. */
+/* Own rows, with those of the ghosts after them as LAMMPS has them. */
+const double *Bed::fill(const double *from) {
+  if (!ghosts)
+    return from;
+  const size_t n = own(), all = n + static_cast<size_t>(lammps->atom->nghost);
+  std::copy(from, from + dim(), filled.begin());
+  for (size_t i = n; i < all; i++)
+    take_row(lammps->atom, i, stride, &filled[i * stride]);
+  return filled.data();
+}
+
+/* Own rows, with those of the ghosts after them as they are by now. */
 const double *Bed::with_ghosts(const double *from) {
-  count.evaluations++;
   for (size_t i = 0; i < own(); i++) {
     double way[3];
-    vec3_sub(from + i * stride + ROW_X, &reference[3 * i], way);
+    vec3_sub(from + i * stride + ROW_X, &near_reference[3 * i], way);
     furthest2 = std::max(furthest2, vec3_dot(way, way));
   }
+  count.contacts += static_cast<double>(rows_contacts(rows));
   if (!ghosts)
     return from;
   to_lammps(from);
@@ -344,6 +389,7 @@ const double *Bed::with_ghosts(const double *from) {
 /* A rate that is not finite makes the error of the step so, on all ranks. */
 int Bed::rates(double, const double y[], double f[], void *params) {
   Bed *b = static_cast<Bed *>(params);
+  b->count.evaluations++;
   rows_rates(b->rows, b->with_ghosts(y), f);
   return GSL_SUCCESS;
 }
@@ -351,6 +397,7 @@ int Bed::rates(double, const double y[], double f[], void *params) {
 int Bed::stage(double, const double y[], const struct stage *s, double out[],
                void *params) {
   Bed *b = static_cast<Bed *>(params);
+  b->count.evaluations++;
   rows_stage(b->rows, b->with_ghosts(y), s, out);
   return GSL_SUCCESS;
 }
@@ -371,8 +418,8 @@ void Bed::largest(double values[], int n) {
 }
 
 /* This rank's part of ahead. */
-void Bed::look_ahead(double most[2]) const {
-  most[0] = most[1] = 0;
+void Bed::look_ahead(double most[3]) const {
+  std::fill(most, most + 3, 0);
   for (size_t i = 0; i < own(); i++) {
     const double *row = &y[i * stride];
     double way[3];
@@ -381,6 +428,8 @@ void Bed::look_ahead(double most[2]) const {
                                  vec3_norm(&f1[i * stride] + ROW_V), cap));
     vec3_sub(row + ROW_X, &reference[3 * i], way);
     most[1] = std::max(most[1], vec3_norm(way));
+    vec3_sub(row + ROW_X, &near_reference[3 * i], way);
+    most[2] = std::max(most[2], vec3_norm(way));
   }
 }
 
@@ -396,6 +445,23 @@ rkc_problem Bed::problem() {
   return p;
 }
 
+/* Whether a stage went further than the list holds: contacts may lack there, so
+   that the error means nothing. way: the furthest (m); next: the step to try.
+ */
+bool Bed::runs_away(double way, double h, double *next) {
+  if (way <= near / 2)
+    return false;
+  if (2 * way <= skin - 2 * apart) {
+    *next = h;
+    with_ghosts(start.data());
+    list_near(start.data(), 3 * way);
+  } else {
+    *next = h / 10;
+    step.power.known = false;
+  }
+  return true;
+}
+
 /* A step of length h; if it is not good enough y is what it was. next: the
    length to go on with. */
 bool Bed::attempt(double h, double *next) {
@@ -407,23 +473,19 @@ bool Bed::attempt(double h, double *next) {
     *next = h / 2;
     return false;
   }
-  double worst[4] = {0, furthest2}; /* one reduction for both */
+  double worst[5] = {0, furthest2}; /* one reduction for both */
   look_ahead(worst + 2);
   for (size_t i = 0; i < p.dim; i++) {
     const double e = std::fabs(error[i]) * weight[i] / set.tol;
     if (!(e <= worst[0]) && !std::isnan(worst[0]))
       worst[0] = e;
   }
-  largest(worst, 4);
-  /* beyond what the list holds for the error means nothing, but is large */
-  if (!(std::sqrt(worst[1]) <= skin / 2)) {
-    *next = h / 10;
-    step.power.known = false;
+  largest(worst, 5);
+  if (runs_away(std::sqrt(worst[1]), h, next))
     return false;
-  }
   if (!predictive_accepts(&control, worst[0], 2, next))
     return false;
-  std::copy(worst + 2, worst + 4, ahead);
+  std::copy(worst + 2, worst + 5, ahead);
   return true;
 }
 
@@ -431,11 +493,16 @@ void Bed::integrate() {
   double next = set.hinit;
   rates(t, y.data(), f1.data(), this);
   look_ahead(ahead);
-  largest(ahead, 2);
+  largest(ahead, 3);
   while (t < set.end) {
+    double h = std::min(next, 1 / ahead[0]), done;
     if (ahead[1] + 1.5 * cap > skin / 2)
       relay();
-    double h = std::min(next, 1 / ahead[0]), done;
+    /* the way that the fastest sphere may go */
+    const double way = 1.5 * cap * h * ahead[0];
+    const double wanted = 2 * NEAR_SERVES * way;
+    if (near < 0 || ahead[2] + way > near / 2 || near > 2 * wanted)
+      list_near(y.data(), wanted);
     std::copy(y.begin(), y.end(), start.begin());
     std::copy(f1.begin(), f1.end(), f0.begin());
     for (;;) {
@@ -489,7 +556,6 @@ std::vector<double> Bed::gathered(size_t width,
 
 /* The bed: the keys of start.tsv with the time that was reached. */
 void Bed::gather(FILE *out) {
-  enum { WIDTH = 13 };
   const Atom *a = lammps->atom;
   std::vector<double> mine;
   for (int i = 0; i < a->nlocal; i++) {
@@ -568,6 +634,7 @@ void Bed::write_stats(const char *path, double wall_seconds,
                       double cpu_seconds) {
   double ghosts = count.ghosts / static_cast<double>(count.evaluations), most;
   MPI_Reduce(&ghosts, &most, 1, MPI_DOUBLE, MPI_MAX, 0, MPI_COMM_WORLD);
+  const double contacts = total(count.contacts, this);
   if (rank)
     return;
   /* each rank exchanges with its neighbours in x, then in y */
@@ -585,12 +652,14 @@ void Bed::write_stats(const char *path, double wall_seconds,
   fprintf(out,
           "\nrhs_evaluations\t%zu\npower_evaluations\t%zu\n"
           "steps_accepted\t%zu\nsteps_rejected\t%zu\npair_list_builds\t%zu\n"
+          "near_list_builds\t%zu\ncontact_evaluations\t%.0f\n"
           "reductions\t%zu\nmost_ghosts\t%.0f\n"
           "messages_per_evaluation\t%d\nbytes_per_evaluation\t%.0f\n"
           "wall_seconds\t%g\ncpu_seconds\t%g\n",
           count.evaluations, step.report.power_evaluations, count.accepted,
-          count.rejected, count.builds, count.sums, most, messages,
-          most * ROW_SPIN * sizeof(double), wall_seconds, cpu_seconds);
+          count.rejected, count.builds, count.near_builds, contacts, count.sums,
+          most, messages, most * ROW_SPIN * sizeof(double), wall_seconds,
+          cpu_seconds);
   fclose(out);
 }
 

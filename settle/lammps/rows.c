@@ -12,7 +12,9 @@ struct rows {
   const struct kernel *kernel;
   struct contact_part part;
   size_t incoming[2]; /* one part: no pair comes in */
-  uint32_t *fixed;    /* ascending */
+  uint32_t *i, *j;    /* pairs that may come near, in the order of near */
+  size_t *first;
+  uint32_t *fixed; /* ascending */
   size_t fixed_count;
 };
 
@@ -46,7 +48,8 @@ static void forget_layout(struct rows *r) {
   struct contact_list *l = &r->list;
   void *arrays[] = {l->radius,   l->mass,    l->push,       l->turn,
                     l->near.i,   l->near.j,  l->near.first, l->wall_first,
-                    l->wall_row, l->wall_id, r->part.sums, r->fixed};
+                    l->wall_row, l->wall_id, r->part.sums,  r->fixed,
+                    r->i,        r->j,       r->first};
   for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++)
     free(arrays[k]);
 }
@@ -84,10 +87,13 @@ int rows_set(struct rows *r, const struct rows_layout *layout) {
   l->mass = copied(layout->mass, all, sizeof *l->mass);
   l->push = malloc((n + 1) * sizeof *l->push);
   l->turn = malloc((n + 1) * sizeof *l->turn);
-  l->near.i = copied(layout->i, pairs, sizeof *l->near.i);
-  l->near.j = copied(layout->j, pairs, sizeof *l->near.j);
-  l->near.first = copied(layout->first, n + 1, sizeof *l->near.first);
-  l->near.count = pairs;
+  r->i = copied(layout->i, pairs, sizeof *r->i);
+  r->j = copied(layout->j, pairs, sizeof *r->j);
+  r->first = copied(layout->first, n + 1, sizeof *r->first);
+  l->near.i = malloc((pairs + 1) * sizeof *l->near.i);
+  l->near.j = malloc((pairs + 1) * sizeof *l->near.j);
+  l->near.first = calloc(n + 1, sizeof *l->near.first);
+  l->near.count = 0;
   r->fixed = copied(layout->fixed, layout->fixed_count, sizeof *r->fixed);
   r->fixed_count = layout->fixed_count;
   l->wall_first = malloc((n + 1) * sizeof *l->wall_first);
@@ -100,7 +106,7 @@ int rows_set(struct rows *r, const struct rows_layout *layout) {
                             .mask = room - 1};
   if (!l->radius || !l->mass || !l->push || !l->turn || !l->near.i ||
       !l->near.j || !l->near.first || !l->wall_first || !l->wall_row ||
-      !l->wall_id || !r->part.sums || !r->fixed)
+      !l->wall_id || !r->part.sums || !r->fixed || !r->i || !r->j || !r->first)
     return GSL_ENOMEM;
   l->wall_contacts = 0;
   for (size_t i = 0, fixed = 0; i < n; i++) {
@@ -121,6 +127,29 @@ int rows_set(struct rows *r, const struct rows_layout *layout) {
   return GSL_SUCCESS;
 }
 
+void rows_near(struct rows *r, const double y[], double skin) {
+  struct contact_list *l = &r->list;
+  const double reach = l->law.lmax + skin;
+  size_t count = 0;
+  for (size_t row = 0; row < l->rows; row++) {
+    l->near.first[row] = count;
+    for (size_t p = r->first[row]; p < r->first[row + 1]; p++) {
+      const uint32_t i = r->i[p], j = r->j[p];
+      const double most = l->radius[i] + l->radius[j] + reach;
+      double way[3];
+      vec3_sub(y + i * l->stride + ROW_X, y + j * l->stride + ROW_X, way);
+      l->near.i[count] = i;
+      l->near.j[count] = j;
+      count += vec3_dot(way, way) <= most * most;
+    }
+  }
+  l->near.first[l->rows] = l->near.count = count;
+}
+
+size_t rows_contacts(const struct rows *r) {
+  return contact_list_size(&r->list);
+}
+
 int rows_rates(const struct rows *r, const double y[], double f[]) {
   const size_t stride = r->list.stride;
   const int status =
@@ -133,9 +162,8 @@ int rows_rates(const struct rows *r, const double y[], double f[]) {
 int rows_stage(const struct rows *r, const double y[],
                const struct stage *stage, double out[]) {
   const size_t stride = r->list.stride;
-  const int status =
-      rates_evaluate(&r->list, r->kernel, y,
-                     &(struct rates_to){.stage = stage, .out = out});
+  const int status = rates_evaluate(
+      &r->list, r->kernel, y, &(struct rates_to){.stage = stage, .out = out});
   for (size_t k = 0; k < r->fixed_count; k++) {
     const size_t at = r->fixed[k] * stride;
     memcpy(out + at, y + at, stride * sizeof *out);

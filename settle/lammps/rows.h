@@ -24,10 +24,10 @@ void rows_free(struct rows *r);
 size_t rows_stride(const struct rows *r);
 
 /* The spheres: count rows and ghosts after them, and pairs i < j by i, row i's
-   from first[i] on (count + 1). Copied. Walls within skin beyond lmax are
-   looked for; x: three numbers for each row. The rows in fixed, ascending, are
-   obstacles: their rates are zero, and walls do not matter to them. GSL_SUCCESS,
-   GSL_ENOMEM. */
+   from first[i] on (count + 1), of which rows_near takes some. Copied. Walls
+   within skin beyond lmax are looked for; x: three numbers for each row. The
+   rows in fixed, ascending, are obstacles: their rates are zero, and walls do
+   not matter to them. GSL_SUCCESS, GSL_ENOMEM. */
 struct rows_layout {
   size_t count, ghosts;
   const double *x, *radius, *mass;
@@ -38,6 +38,13 @@ struct rows_layout {
   double skin;
 };
 int rows_set(struct rows *r, const struct rows_layout *layout);
+
+/* Of these pairs those within skin beyond lmax are computed from now on; y:
+   rows and ghosts. */
+void rows_near(struct rows *r, const double y[], double skin);
+
+/* Pairs and walls that an evaluation computes. */
+size_t rows_contacts(const struct rows *r);
 
 /* Rates of y, rows and ghosts, into f; or with a stage its sum into out.
    GSL_SUCCESS, GSL_EBADFUNC where a rate is not finite. */
