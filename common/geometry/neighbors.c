@@ -12,6 +12,7 @@
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_sort_uint.h>
 #include <gsl/gsl_statistics.h>
+#include "platform/multiversion.h"
 
 /* A sphere of size 2 r + reach has its partners of no larger size within that
    size. Spheres are put into levels by size, and each level has a grid of cells
@@ -36,6 +37,7 @@ struct level {
   struct grid grid;
   size_t cells, *start; /* of a cell's members; cells + 2 */
   uint32_t *member;     /* count */
+  double *place[4];     /* x, y, z and radius of each member */
 };
 
 /* The points that a search works on. */
@@ -245,14 +247,44 @@ static void fill_cells(const struct cloud *c, struct level *l, uint32_t *cell,
   memcpy(other, l->member, l->count * sizeof *other);
   for (size_t q = 0; q < l->count; q++)
     l->member[l->start[cell[q] + 1]++] = other[q];
+  for (size_t q = 0; q < l->count; q++) {
+    const size_t i = l->member[q];
+    for (size_t k = 0; k < 3; k++)
+      l->place[k][q] = c->x[i * c->stride + k];
+    l->place[3][q] = c->radius[i];
+  }
+}
+
+/* Into what is compiled for several instruction sets. */
+#define INLINE static inline __attribute__((always_inline))
+
+/* Distances are looked at in whole vectors of members, a few at a time; the
+   places go on for one vector. */
+enum { CHUNK = 64, VECTOR = 8 };
+
+/* Of the members from q on, up to CHUNK: 1 for those within reach of sphere
+   i. */
+INLINE void test_members(const struct cloud *c, const struct level *l, size_t i,
+                         size_t q, size_t count, size_t within[CHUNK]) {
+  const double *x = c->x + i * c->stride, ri = c->radius[i], reach = c->reach;
+  const double *px = l->place[0] + q, *py = l->place[1] + q;
+  const double *pz = l->place[2] + q, *r = l->place[3] + q;
+  const double x0 = x[0], x1 = x[1], x2 = x[2];
+  const size_t whole = (count + VECTOR - 1) / VECTOR * VECTOR;
+#pragma omp simd
+  for (size_t k = 0; k < whole; k++) {
+    const double dx = x0 - px[k], dy = x1 - py[k], dz = x2 - pz[k];
+    const double most = ri + r[k] + reach;
+    within[k] = (most >= 0) & (dx * dx + dy * dy + dz * dz <= most * most);
+  }
 }
 
 /* Appends the pairs of sphere i with those of a level: of its own (own) with
    those after it, of another with all. */
-static inline int append_pairs(struct neighbors *nb, const struct cloud *c,
-                               const struct level *l, size_t i, bool own) {
+INLINE int append_pairs(struct neighbors *nb, const struct cloud *c,
+                        const struct level *l, size_t i, bool own) {
   const struct grid *g = &l->grid;
-  const double *xi = c->x + i * c->stride, ri = c->radius[i];
+  const double *xi = c->x + i * c->stride;
   size_t low[3], high[3], count = nb->count;
   for (int k = 0; k < 3; k++) {
     const size_t at = cell_coordinate(g, k, xi[k]);
@@ -267,18 +299,19 @@ static inline int append_pairs(struct neighbors *nb, const struct cloud *c,
       if (reserve_pairs(nb, count + (to - from)) != GSL_SUCCESS)
         return GSL_ENOMEM;
       nb->tested += to - from;
-      for (size_t q = from; q < to; q++) {
-        const size_t j = l->member[q];
-        if (own && j <= i)
-          continue;
-        const double *xj = c->x + j * c->stride;
-        const double dx = xi[0] - xj[0], dy = xi[1] - xj[1], dz = xi[2] - xj[2];
-        const double most = ri + c->radius[j] + c->reach;
-        if (!(most >= 0 && dx * dx + dy * dy + dz * dz <= most * most))
-          continue;
-        if (!own)
-          nb->i[count] = (uint32_t)(i < j ? i : j);
-        nb->j[count++] = (uint32_t)(own || i < j ? j : i);
+      uint32_t *restrict first = nb->i, *restrict second = nb->j;
+      for (size_t q = from; q < to; q += CHUNK) {
+        const size_t some = GSL_MIN(CHUNK, to - q);
+        size_t within[CHUNK];
+        test_members(c, l, i, q, some, within);
+        /* no branch: which it is cannot be told ahead */
+        for (size_t k = 0; k < some; k++) {
+          const size_t j = l->member[q + k];
+          if (!own)
+            first[count] = (uint32_t)(i < j ? i : j);
+          second[count] = (uint32_t)(own || i < j ? j : i);
+          count += within[k] & (!own || j > i);
+        }
       }
     }
   for (size_t p = nb->count; own && p < count; p++)
@@ -343,6 +376,7 @@ static int sort_pairs(struct neighbors *nb, size_t n) {
 }
 
 /* All spheres of one level: pairs come in the order of i. */
+MULTIVERSION
 static int search_level(struct neighbors *nb, const struct cloud *c,
                         const struct level *l) {
   for (size_t i = 0; i < c->n; i++) {
@@ -370,12 +404,14 @@ static int search_levels(struct neighbors *nb, const struct cloud *c,
 }
 
 /* Makes the grids of the levels. level: by class, NULL where there is but one.
-   Scratch has the members of the levels, cells of spheres, their order before
-   and, once the grids are known, where the members of each cell start. */
+   Scratch has the members of the levels, cells of spheres, their order before,
+   places of the members and, once the grids are known, where the members of
+   each cell start. */
 static int make_grids(struct neighbors *nb, const struct cloud *c,
                       double largest, const size_t *level, size_t count,
                       struct level *levels) {
-  const size_t bytes = (3 * c->n + 1) / 2 * 2 * sizeof(uint32_t);
+  const size_t numbers = (3 * c->n + 1) / 2 * 2 * sizeof(uint32_t);
+  const size_t bytes = numbers + (4 * c->n + VECTOR) * sizeof(double);
   if (reserve_scratch(nb, bytes) != GSL_SUCCESS)
     return GSL_ENOMEM;
   fill_levels(c, largest, level, levels, nb->scratch);
@@ -391,12 +427,17 @@ static int make_grids(struct neighbors *nb, const struct cloud *c,
   if (reserve_scratch(nb, bytes + starts * sizeof(size_t)) != GSL_SUCCESS)
     return GSL_ENOMEM;
   uint32_t *member = nb->scratch, *cell = member + c->n;
+  double *place = (double *)((char *)nb->scratch + numbers);
+  memset(place + 4 * c->n, 0, VECTOR * sizeof *place);
   size_t *start = (size_t *)((char *)nb->scratch + bytes);
   for (struct level *l = levels; l < levels + count; l++) {
     l->member = member;
+    for (size_t k = 0; k < 4; k++)
+      l->place[k] = place + k * l->count;
     l->start = start;
     fill_cells(c, l, cell, cell + c->n);
     member += l->count;
+    place += 4 * l->count;
     start += l->cells + 2;
   }
   return GSL_SUCCESS;
