@@ -326,7 +326,8 @@ INLINE void evaluate_sides(const struct contact_law *law, size_t c, double f,
   b->oz[c] = other * tz - j * uz;
 }
 
-/* The law: contact.h, written for columns. */
+/* The law: contact.h, written for columns. Each loop calls exp or keeps much in
+   registers, not both. */
 INLINE void evaluate(const struct contact_law *law, size_t count,
                      struct block *b, const struct contact_features has) {
   const double f0 = law->f0, kappa = law->kappa, lmax = law->lmax;
@@ -334,15 +335,29 @@ INLINE void evaluate(const struct contact_law *law, size_t count,
   const double psi2 = 2 * law->psi;
   const double vmin = law->vmin, inverse_vmin = 1 / vmin;
   const double phi = law->friction;
+  double rates[BLOCK], repulsion[BLOCK], rebound[BLOCK];
+#pragma omp simd
+  for (size_t c = 0; c < count; c++) {
+    rates[c] = b->vx[c] * b->nx[c] + b->vy[c] * b->ny[c] + b->vz[c] * b->nz[c];
+    rebound[c] = psi2 * rates[c];
+    repulsion[c] = -kappa * b->gap[c];
+  }
+#pragma omp simd
+  for (size_t c = 0; c < count; c++)
+    repulsion[c] = exp(repulsion[c]);
+  if (!has.elastic)
+#pragma omp simd
+    for (size_t c = 0; c < count; c++)
+      rebound[c] = exp(rebound[c]);
 #pragma omp simd
   for (size_t c = 0; c < count; c++) {
     const double nx = b->nx[c], ny = b->ny[c], nz = b->nz[c];
     const double vx = b->vx[c], vy = b->vy[c], vz = b->vz[c];
-    const double rate = vx * nx + vy * ny + vz * nz;
-    const double in_reach = f0 * exp(-kappa * b->gap[c]);
+    const double rate = rates[c];
+    const double in_reach = f0 * repulsion[c];
     const double f = b->gap[c] > lmax ? 0 : in_reach;
     const double normal =
-        has.elastic ? f : f * (e2 + (1 - e2) / (1 + exp(psi2 * rate)));
+        has.elastic ? f : f * (e2 + (1 - e2) / (1 + rebound[c]));
     double fx = normal * nx, fy = normal * ny, fz = normal * nz;
     if (has.friction) {
       double tx = vx - rate * nx, ty = vy - rate * ny, tz = vz - rate * nz;
