@@ -120,7 +120,7 @@ static int take(struct contact_list *part, struct contact_list *from,
   uint32_t *rows = calloc(from->rows + 1, sizeof *rows);
   CHECK(contact_list_partners(from) == GSL_SUCCESS);
   const int status = contact_subset_rows(
-      part, from, rows, rows_of(from->rows, marked, rows), reach);
+      &part, 1, from, rows, rows_of(from->rows, marked, rows), reach);
   free(rows);
   return status;
 }
@@ -168,6 +168,53 @@ static void test_rows(gsl_rng *rng, unsigned long seed) {
   free(marked);
   contact_list_free(part);
   contact_list_free(deeper);
+  sample_free(&s);
+}
+
+/* Marked rows in two lists, of their near contacts and of the others, which add
+   up. */
+static void test_parts(gsl_rng *rng, unsigned long seed) {
+  gsl_rng_set(rng, seed);
+  const size_t n = 1 + gsl_rng_get(rng) % 120;
+  struct sample s = random_sample(rng, n, 1);
+  evaluate(s.list, s.y, s.rates);
+  const double scale = largest(s.rates, n * s.list->stride) + 1;
+  uint32_t *rows = calloc(n, sizeof *rows);
+  size_t count = 0;
+  for (size_t i = 0; i < n; i++)
+    if (gsl_rng_uniform(rng) < 0.4)
+      rows[count++] = (uint32_t)i;
+  struct contact_list *part[2] = {part_of(s.list), part_of(s.list)};
+  const struct contact_reach reach[2] = {
+      {.y = s.y, .h = uniform(rng, 0, 0.01), .gap = uniform(rng, -0.02, 0.1)},
+      everything(s.y)};
+  CHECK(contact_list_partners(s.list) == GSL_SUCCESS);
+  CHECK(contact_subset_rows(part, 2, s.list, rows, count, reach) ==
+        GSL_SUCCESS);
+  memset(part[1]->gravity, 0, sizeof part[1]->gravity);
+  double *far = numbers(count * s.list->stride),
+         *rates = numbers(count * s.list->stride);
+  double *y = state_of(part[1], s.y), *z = state_of(part[0], s.y);
+  evaluate(part[1], y, far);
+  part[0]->frozen = far;
+  evaluate(part[0], z, rates);
+  bool ok = CHECK_CLOSE(worst_of(part[0], rates, s.rates, scale), 0,
+                        64 * DBL_EPSILON);
+  /* each has what is within its own reach */
+  for (size_t k = 0; k < 2; k++)
+    for (size_t q = 0; q < part[k]->near.count; q++)
+      ok = ok && (k == 0) == contact_subset_within(
+                                 s.list, part[k]->order[part[k]->near.i[q]],
+                                 part[k]->order[part[k]->near.j[q]], reach);
+  if (!CHECK(ok))
+    fprintf(stderr, "  seed %lu\n", seed);
+  for (size_t k = 0; k < 2; k++)
+    contact_list_free(part[k]);
+  free(y);
+  free(z);
+  free(far);
+  free(rates);
+  free(rows);
   sample_free(&s);
 }
 
@@ -357,6 +404,7 @@ int main(void) {
     return 1;
   for (unsigned long seed = 0; seed < 100; seed++) {
     test_rows(rng, seed);
+    test_parts(rng, seed);
     test_split(rng, seed);
     test_islands(rng, seed);
   }

@@ -161,40 +161,62 @@ static uint32_t *reserve_part(struct contact_list *part,
   return part->place;
 }
 
-/* Row a's pairs with rows after it and with ghosts, which get places. */
-static void take_pairs(struct contact_list *part,
+/* The row of part that is row j of from: a ghost has none before it is met. */
+static uint32_t place_of(struct contact_list *part,
+                         const struct contact_list *from, uint32_t j) {
+  if (part->place[j] == NOWHERE) {
+    const size_t at = part->rows + part->ghosts++;
+    copy_row(part, at, from, j);
+    part->place[j] = (uint32_t)at;
+  }
+  return part->place[j];
+}
+
+/* Of count lists, the first within whose reach rows i and j come; count if they
+   do not. */
+static size_t first_within(const struct contact_list *from, size_t i, size_t j,
+                           size_t count, const struct contact_reach reach[]) {
+  size_t k = 0;
+  while (k < count && !contact_subset_within(from, i, j, &reach[k]))
+    k++;
+  return k;
+}
+
+/* Row a's pairs with rows after it and with ghosts. */
+static void take_pairs(struct contact_list *const part[], size_t count,
                        const struct contact_list *from, size_t a,
-                       const struct contact_reach *reach) {
-  const size_t i = part->order[a];
-  part->near.first[a] = part->near.count;
+                       const struct contact_reach reach[]) {
+  const size_t i = part[0]->order[a];
   for (size_t q = from->partner_first[i]; q < from->partner_first[i + 1]; q++) {
     const uint32_t j = from->partner[q];
-    if (part->place[j] <= a || !contact_subset_within(from, i, j, reach))
+    if (part[0]->place[j] <= a)
       continue;
-    if (part->place[j] == NOWHERE) {
-      const size_t at = part->rows + part->ghosts++;
-      copy_row(part, at, from, j);
-      part->place[j] = (uint32_t)at;
-    }
-    part->near.i[part->near.count] = (uint32_t)a;
-    part->near.j[part->near.count++] = part->place[j];
+    const size_t k = first_within(from, i, j, count, reach);
+    if (k == count)
+      continue;
+    struct neighbors *near = &part[k]->near;
+    near->i[near->count] = (uint32_t)a;
+    near->j[near->count++] = place_of(part[k], from, j);
   }
 }
 
-static void take_walls(struct contact_list *part,
-                       const struct contact_list *from, size_t a) {
-  const size_t i = part->order[a];
-  part->wall_first[a] = part->wall_contacts;
+/* Walls are in the last list at the latest. */
+static void take_walls(struct contact_list *const part[], size_t count,
+                       const struct contact_list *from, size_t a,
+                       const struct contact_reach reach[]) {
+  const size_t i = part[0]->order[a];
   for (size_t q = from->wall_first[i]; q < from->wall_first[i + 1]; q++) {
-    part->wall_row[part->wall_contacts] = (uint32_t)a;
-    part->wall_id[part->wall_contacts++] = from->wall_id[q];
+    size_t k = 0;
+    while (k + 1 < count && !wall_within(from, q, &reach[k]))
+      k++;
+    part[k]->wall_row[part[k]->wall_contacts] = (uint32_t)a;
+    part[k]->wall_id[part[k]->wall_contacts++] = from->wall_id[q];
   }
 }
 
-int contact_subset_rows(struct contact_list *part,
-                        const struct contact_list *from, const uint32_t rows[],
-                        size_t count, const struct contact_reach *reach) {
-  assert(from->partners_known);
+static int begin_part(struct contact_list *part,
+                      const struct contact_list *from, const uint32_t rows[],
+                      size_t count) {
   part->moving = 0;
   part->rows = part->ghosts = part->near.count = part->wall_contacts = 0;
   part->partners_known = false;
@@ -208,17 +230,39 @@ int contact_subset_rows(struct contact_list *part,
     place[rows[a]] = (uint32_t)a;
     part->moving += rows[a] < from->moving;
   }
-  for (size_t a = 0; a < count; a++) {
-    take_pairs(part, from, a, reach);
-    take_walls(part, from, a);
-  }
-  part->near.first[count] = part->near.count;
-  part->wall_first[count] = part->wall_contacts;
-  for (size_t a = 0; a < count + part->ghosts; a++)
-    place[part->order[a]] = NOWHERE;
+  return GSL_SUCCESS;
+}
+
+static int end_part(struct contact_list *part) {
+  part->near.first[part->rows] = part->near.count;
+  part->wall_first[part->rows] = part->wall_contacts;
+  part->span = part->rows + part->ghosts;
+  for (size_t a = 0; a < part->span; a++)
+    part->place[part->order[a]] = NOWHERE;
   choose_threads(part);
-  part->span = count + part->ghosts;
   return contact_list_share(part);
+}
+
+int contact_subset_rows(struct contact_list *const part[], size_t parts,
+                        const struct contact_list *from, const uint32_t rows[],
+                        size_t count, const struct contact_reach reach[]) {
+  assert(from->partners_known);
+  for (size_t k = 0; k < parts; k++)
+    if (begin_part(part[k], from, rows, count) != GSL_SUCCESS)
+      return GSL_ENOMEM;
+  for (size_t a = 0; a < count; a++) {
+    for (size_t k = 0; k < parts; k++) {
+      part[k]->near.first[a] = part[k]->near.count;
+      part[k]->wall_first[a] = part[k]->wall_contacts;
+    }
+    take_pairs(part, parts, from, a, reach);
+    take_walls(part, parts, from, a, reach);
+  }
+  int status = GSL_SUCCESS;
+  for (size_t k = 0; k < parts; k++)
+    if (end_part(part[k]) != GSL_SUCCESS)
+      status = GSL_ENOMEM;
+  return status;
 }
 
 static int copy_rows(struct contact_list *to, const struct contact_list *from) {

@@ -24,13 +24,14 @@ int contact_subset_alloc(struct contact_list **out,
 bool contact_subset_within(const struct contact_list *l, size_t i, size_t j,
                            const struct contact_reach *reach);
 
-/* Makes part the list of count rows of from, ascending, and of every contact of
-   theirs within reach; partners that are not among them, ghosts of from too,
-   become ghosts. The partners of from are to be listed. GSL_SUCCESS,
-   GSL_ENOMEM. */
-int contact_subset_rows(struct contact_list *part,
+/* Makes each part a list of count rows of from, ascending, and of those
+   contacts of theirs within its reach that are in no part before it; walls that
+   are within none are in the last. Partners that are not among the rows, ghosts
+   of from too, become ghosts. The partners of from are to be listed.
+   GSL_SUCCESS, GSL_ENOMEM. */
+int contact_subset_rows(struct contact_list *const part[], size_t parts,
                         const struct contact_list *from, const uint32_t rows[],
-                        size_t count, const struct contact_reach *reach);
+                        size_t count, const struct contact_reach reach[]);
 
 /* Gives the contacts of from within reach to near and the others to far, both
    with all rows and ghosts of from. GSL_SUCCESS, GSL_ENOMEM. */

@@ -188,6 +188,8 @@ static void solve(struct lane *lane, size_t depth, size_t island, double t,
   if (r->status == GSL_SUCCESS)
     r->status = advance(lane, depth + 1, t, t + h);
   if (r->status == GSL_SUCCESS)
+    r->status = level_catch_up(child, l);
+  if (r->status == GSL_SUCCESS)
     r->status = note_changes(lane, depth, t + h);
   r->changes_end = lane->changes.count;
   r->trace_end = trace_mark(lane->trace);

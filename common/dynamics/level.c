@@ -39,6 +39,8 @@ int level_alloc(struct level **out, struct level_setting *setting, bool all) {
   int status = GSL_SUCCESS;
   if (!list)
     status = contact_subset_alloc(&l->list, setting->dynamics->list);
+  if (status == GSL_SUCCESS && !list)
+    status = contact_subset_alloc(&l->apart, setting->dynamics->list);
   if (status == GSL_SUCCESS)
     status = contact_subset_alloc(&l->near, setting->dynamics->list);
   if (status == GSL_SUCCESS)
@@ -51,6 +53,8 @@ int level_alloc(struct level **out, struct level_setting *setting, bool all) {
   }
   l->near->frozen = l->frozen;
   memset(l->far->gravity, 0, sizeof l->far->gravity);
+  if (l->apart)
+    memset(l->apart->gravity, 0, sizeof l->apart->gravity);
   if (list) {
     dynamics_scale(setting->dynamics, l->weight);
     for (size_t i = 0; i < l->rows * l->stride; i++)
@@ -69,6 +73,7 @@ void level_free(struct level *l) {
     contact_list_free(l->list);
   contact_list_free(l->near);
   contact_list_free(l->far);
+  contact_list_free(l->apart);
   double *vectors[] = {l->y0,
                        l->f0,
                        l->y1,
@@ -79,6 +84,7 @@ void level_free(struct level *l) {
                        l->b,
                        l->change,
                        l->frozen,
+                       l->away,
                        l->cubic,
                        l->error,
                        l->wanted,
@@ -104,7 +110,8 @@ static bool renew(double **x, size_t n) {
 int level_reserve(struct level *l) {
   l->rows = l->list->rows;
   l->ghosts = l->list->ghosts;
-  const size_t all = l->rows + l->ghosts;
+  const size_t apart = l->apart ? l->apart->ghosts : 0;
+  const size_t all = l->rows + GSL_MAX(l->ghosts, apart);
   if (all <= l->room)
     return GSL_SUCCESS;
   l->room = 0;
@@ -123,11 +130,13 @@ int level_reserve(struct level *l) {
       !renew(&l->change, vector) || !renew(&l->a, vector) ||
       !renew(&l->b, vector) || !renew(&l->weight, vector) ||
       !renew(&l->power.direction, vector) || !renew(&l->frozen, vector) ||
-      !renew(&l->cubic, 4 * vector) || !renew(&l->error, room) ||
-      !renew(&l->wanted, room) || !renew(&l->partner_error, room) ||
-      !l->flagged || !l->refined || !l->whole)
+      (l->apart && !renew(&l->away, vector)) || !renew(&l->cubic, 4 * vector) ||
+      !renew(&l->error, room) || !renew(&l->wanted, room) ||
+      !renew(&l->partner_error, room) || !l->flagged || !l->refined ||
+      !l->whole)
     return GSL_ENOMEM;
   l->near->frozen = l->frozen;
+  l->far->frozen = l->list->frozen = l->away;
   l->room = room;
   return GSL_SUCCESS;
 }
@@ -239,7 +248,6 @@ static int split(struct level *l, double t, double h) {
   const int status = contact_subset_split(l->near, l->far, l->list, &reach);
   if (status != GSL_SUCCESS)
     return status;
-  l->near->frozen = l->frozen;
   l->active = l->near;
   return evaluate(l, l->far, t, l->y0, &(struct rates_to){.dydt = l->frozen});
 }
@@ -405,15 +413,36 @@ int level_islands(struct level *l, double t, double h) {
   return islands_find(&l->islands, l->list, l->flagged, &reach);
 }
 
+/* What contacts far apart give to the rates of child's rows at y, their ghosts
+   being rows of l at whole, with all that is frozen for l; uses child->a. */
+static int apart_rates(struct level *child, const struct level *l,
+                       const double *y, const double *whole, double *rates) {
+  const struct contact_list *apart = child->apart;
+  const size_t stride = l->stride, n = child->rows * stride;
+  memcpy(child->a, y, n * sizeof *y);
+  for (size_t a = child->rows; a < child->rows + apart->ghosts; a++)
+    copy_row(stride, whole, apart->order[a], child->a, a);
+  child->counts.contacts += contact_list_size(apart);
+  const int status =
+      rates_evaluate(apart, l->setting->dynamics->kernel, child->a,
+                     &(struct rates_to){.dydt = rates});
+  for (size_t a = 0; a < child->rows && l->list->frozen; a++)
+    for (size_t c = ROW_V; c < stride; c++)
+      rates[a * stride + c] +=
+          l->list->frozen[child->list->order[a] * stride + c];
+  return status;
+}
+
 int level_refine(struct level *child, const struct level *l, size_t island,
                  double t, double h) {
   const struct contact_law *law = &l->list->law;
-  const struct contact_reach reach = {
-      .y = l->y0, .h = h, .gap = law->lmax + 2 / law->kappa};
+  const struct contact_reach reach[2] = {
+      {.y = l->y0, .h = h, .gap = far_gap(l, h)},
+      {.y = l->y0, .h = h, .gap = law->lmax + 2 / law->kappa}};
+  struct contact_list *const parts[2] = {child->list, child->apart};
   const size_t begin = l->islands.begin[island];
-  int status =
-      contact_subset_rows(child->list, l->list, l->islands.row + begin,
-                          l->islands.begin[island + 1] - begin, &reach);
+  int status = contact_subset_rows(parts, 2, l->list, l->islands.row + begin,
+                                   l->islands.begin[island + 1] - begin, reach);
   if (status == GSL_SUCCESS)
     status = level_reserve(child);
   if (status != GSL_SUCCESS)
@@ -438,13 +467,27 @@ int level_refine(struct level *child, const struct level *l, size_t island,
   child->power.known = child->inherited = true;
   child->power.length = 0;
   child->served = 0;
+  return apart_rates(child, l, child->y0, l->y0, child->away);
+}
+
+int level_catch_up(struct level *child, const struct level *l) {
+  const size_t stride = l->stride;
+  double *now = child->f1;
+  const int status = apart_rates(child, l, child->y0, l->y1, now);
+  if (status != GSL_SUCCESS)
+    return status;
+  for (size_t a = 0; a < child->rows; a++)
+    for (size_t c = ROW_V; c < stride; c++) {
+      const size_t k = a * stride + c;
+      child->f0[k] += now[k] - child->away[k];
+    }
   return GSL_SUCCESS;
 }
 
 /* Rates of the ghosts by the contacts of the list, into the ghosts' rows of
    b. */
 static int ghost_rates(struct level *l, double t, double *y) {
-  const struct contact_list *list = l->list;
+  struct contact_list *list = l->list;
   const struct kernel *kernel = l->setting->dynamics->kernel;
   const size_t all = l->rows + l->ghosts;
   const struct contact_part part = {
@@ -453,8 +496,10 @@ static int ghost_rates(struct level *l, double t, double *y) {
   level_ghosts(l, t, y);
   kernel->add_pairs(list, y, list->near.i, list->near.j, list->near.count,
                     &part);
-  return kernel->finish(list, y, l->b, 0, all, &part) ? GSL_SUCCESS
-                                                      : GSL_EBADFUNC;
+  list->frozen = NULL; /* that of rows */
+  const bool finite = kernel->finish(list, y, l->b, 0, all, &part);
+  list->frozen = l->away;
+  return finite ? GSL_SUCCESS : GSL_EBADFUNC;
 }
 
 int level_feedback(struct level *child, const struct level *l, double t,

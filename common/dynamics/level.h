@@ -33,8 +33,13 @@ struct level_counts {
 
 struct level {
   struct level_setting *setting;
-  struct contact_list *list;         /* the rows' contacts */
-  struct contact_list *near, *far;   /* parts of it, where the step is split */
+  struct contact_list *list;       /* the rows' contacts */
+  struct contact_list *near, *far; /* parts of it, where the step is split */
+  /* Of an island: contacts of its rows that are far for the whole step of the
+     level above. The list has the others; away, a row each, is what these and
+     all that was frozen above give the rates at the step's start. */
+  struct contact_list *apart;
+  double *away;
   const struct contact_list *active; /* what stages see: list or near */
   size_t rows, ghosts, stride;
   size_t room; /* rows that the arrays have room for */
@@ -94,9 +99,14 @@ void level_undo(struct level *l);
 int level_islands(struct level *l, double t, double h);
 
 /* Makes child the level of an island of l, whose step goes from t to t + h:
-   state, ghosts and the steps that the rows want. GSL_SUCCESS, GSL_ENOMEM. */
+   state, ghosts and the steps that the rows want. GSL_SUCCESS, GSL_EBADFUNC,
+   GSL_ENOMEM. */
 int level_refine(struct level *child, const struct level *l, size_t island,
                  double t, double h);
+
+/* Brings what contacts far apart give to the rates of child, now at the end of
+   l's step, up to date. GSL_SUCCESS, GSL_EBADFUNC. */
+int level_catch_up(struct level *child, const struct level *l);
 
 /* Changes by the rows of child, now at t + h, in the rates at the end of l's
    step: change gets a row for each ghost of child. GSL_SUCCESS,
