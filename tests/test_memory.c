@@ -215,6 +215,36 @@ static int first_evaluation(const struct sample *s) {
   return status;
 }
 
+/* A list that could not be made anew, for spheres that are closer and so have
+   more pairs, is none for where they were before, either. */
+static int later_evaluation(const struct sample *s) {
+  struct dynamics *d = NULL;
+  const size_t stop = failing > calls ? failing : 0;
+  failing = 0;
+  if (dynamics_alloc(&d, &s->scene, &s->bed,
+                     &(struct dynamics_options){.threads = 2}) != GSL_SUCCESS)
+    abort();
+  const size_t dim = dynamics_dimension(d);
+  double *y = calloc(4 * dim, sizeof *y);
+  if (!y)
+    abort();
+  double *close = y + dim, *before = close + dim, *after = before + dim;
+  dynamics_pack(d, &s->bed, y);
+  dynamics_pack(d, &s->bed, close);
+  for (size_t i = 2; i < dim; i += dynamics_stride(d))
+    close[i] *= 0.3;
+  CHECK(dynamics_rhs(0, y, before, d) == GSL_SUCCESS);
+  calls = 0;
+  failing = stop;
+  const int status = dynamics_rhs(0, close, after, d);
+  failing = 0;
+  CHECK(dynamics_rhs(0, y, after, d) == GSL_SUCCESS);
+  CHECK(!memcmp(before, after, dim * sizeof *y));
+  free(y);
+  dynamics_free(d);
+  return status;
+}
+
 static int make_chebyshev(const struct sample *s) {
   struct chebyshev *c = NULL;
   (void)s;
@@ -530,6 +560,7 @@ int main(void) {
   check_each("over the floor", make_over_floor, &few, 22);
   check_each("first evaluation", first_evaluation, &few, 4);
   check_each("first evaluation in order", first_evaluation, &many, 6);
+  check_each("later evaluation", later_evaluation, &some, 1);
   check_each("chebyshev", make_chebyshev, &few, 8);
   check_each("stiffness", make_stiffness, &few, 2);
   check_each("limits", make_limits, &few, STIFFNESS_RAYS);
