@@ -54,7 +54,14 @@ static void move(struct shape *s) {
   }
   move_box(s, s->box);
   move_box(s, s->lattice);
-  move_box(s, s->container);
+  struct container *c = &s->container;
+  move_box(s, c->box);
+  for (size_t k = 0; k < c->planes; k++)
+    s->planes[k][3] =
+        s->scale * s->planes[k][3] + vec3_dot(s->planes[k], s->offset);
+  for (int k = 0; k < 3; k++)
+    c->point[k] = s->scale * c->point[k] + s->offset[k];
+  c->radius *= s->scale;
 }
 
 static double least_radius(const struct bed *b) {
@@ -99,27 +106,90 @@ static void shrink(struct shape *s, const struct shape_options *o) {
     b->r[i] *= s->factor;
 }
 
+static double nearer(int face, double a, double b) {
+  return face % 2 ? fmin(a, b) : fmax(a, b);
+}
+
+/* The axis along which a wall's normal is, or a tube; -1 if it slants. */
+static int axis_along(const double normal[3]) {
+  for (int k = 0; k < 3; k++)
+    if (normal[(k + 1) % 3] == 0 && normal[(k + 2) % 3] == 0)
+      return k;
+  return -1;
+}
+
+/* The container that the walls enclose. */
+static void take_container(struct shape *s) {
+  struct container *c = &s->container;
+  struct scene scene = frame_scene(s->frames, s->source);
+  s->planes = measure_alloc(scene.walls_count, sizeof *s->planes);
+  for (size_t i = 0; i < scene.walls_count; i++) {
+    const struct wall *w = &scene.walls[i];
+    const int axis = axis_along(w->normal);
+    if (w->radius > 0) {
+      if (c->radius > 0)
+        frame_refuse(s->frames, s->source,
+                     "--walls: the header has several cylinders, expected one");
+      c->radius = w->radius;
+      memcpy(c->point, w->point, sizeof c->point);
+      memcpy(c->axis, w->normal, sizeof c->axis);
+    } else if (axis >= 0) {
+      const int face = 2 * axis + (w->normal[axis] > 0);
+      c->box[face] = nearer(face, c->box[face], w->point[axis]);
+    } else {
+      memcpy(s->planes[c->planes], w->normal, 3 * sizeof(double));
+      s->planes[c->planes++][3] = vec3_dot(w->normal, w->point);
+    }
+  }
+  c->plane = (const double(*)[4])s->planes;
+  scene_free(&scene);
+}
+
+/* Makes the box reach into the walls: around a tube along an axis, around all
+   spheres in one that leans. */
+static void widen_box(struct shape *s, double thickness) {
+  const struct container *c = &s->container;
+  double spheres[6], unit[6];
+  shape_bounds(s, spheres);
+  const bool base = frame_base_box(s->header, unit);
+  const int along = axis_along(c->axis);
+  for (int k = 0; k < 6; k++) {
+    const double outwards = k % 2 ? 1 : -1;
+    double end = outwards * GSL_POSINF;
+    if (c->radius > 0 && along < 0)
+      end = spheres[k] + outwards * thickness;
+    else if (c->radius > 0 && along != k / 2)
+      end = c->point[k / 2] + outwards * c->radius + outwards * thickness;
+    end = nearer(k, end, c->box[k] + outwards * thickness);
+    if (isfinite(end))
+      s->box[k] = end;
+    else if (c->radius > 0 && !base && s->bed.n)
+      s->box[k] = spheres[k];
+  }
+}
+
+/* Is all of the box within the container? That is convex. */
+static bool reaches_no_wall(const struct shape *s) {
+  for (int corner = 0; corner < 8; corner++) {
+    double p[3];
+    for (int k = 0; k < 3; k++)
+      p[k] = s->box[2 * k + (corner >> k & 1)];
+    if (container_distance(&s->container, p) < 0)
+      return false;
+  }
+  return true;
+}
+
 /* Makes the box reach into the walls, and these solid. */
 static void add_walls(struct shape *s, const struct shape_options *o) {
-  const double thickness =
-      o->thickness > 0 ? o->thickness : least_radius(s->source);
-  bool any = false;
-  if (bed_header_get(s->header, "cylinder"))
-    frame_refuse(s->frames, s->source,
-                 "--walls: the header has a cylinder, expected planes only");
-  for (int k = 0; k < 6; k++) {
-    if (!s->walled[k])
-      continue;
-    const double outwards = k % 2 ? 1 : -1;
-    if (!o->box_given)
-      s->box[k] = s->container[k] + outwards * thickness;
-    any = any || outwards * (s->box[k] - s->container[k]) > 0;
-  }
-  if (!any)
+  take_container(s);
+  if (!o->box_given)
+    widen_box(s, o->thickness > 0 ? o->thickness : least_radius(s->source));
+  if (reaches_no_wall(s))
     frame_refuse(s->frames, s->source,
                  o->box_given ? "--walls: none is within --box"
-                              : "--walls: the header has none along the axes");
-  s->solid.container = s->container;
+                              : "--walls: the header has none near the box");
+  s->solid.container = &s->container;
 }
 
 /* The fraction that the spheres have with the radii that they came with. */
@@ -143,6 +213,7 @@ void shape_make(struct shape *s, const struct shape_options *o,
                       .box_given = o->box_given,
                       .bare = GSL_NAN,
                       .factor = 1,
+                      .container = container_none(),
                       .changed = o->gap_given || o->bridge > 0,
                       .fraction = GSL_NAN};
   memcpy(s->offset, o->offset, sizeof s->offset);
@@ -159,9 +230,6 @@ void shape_make(struct shape *s, const struct shape_options *o,
   lattice(s->header, &s->bed, s->lattice);
   if (o->box_given)
     memcpy(s->lattice, s->box, sizeof s->lattice);
-  for (int k = 0; k < 6; k++)
-    s->container[k] = k % 2 ? GSL_POSINF : GSL_NEGINF;
-  header_walls(s->header, s->container, s->walled);
   s->solid = (struct solid){.n = s->bed.n, .x = s->bed.x, .r = s->bed.r};
   if (o->gap_given)
     shrink(s, o);
@@ -214,16 +282,19 @@ void shape_measure(struct shape *s) {
     add(s, k ? ",%s" : "%s", text);
   }
   const double box = box_volume(s->box);
-  add(s,
-      s->solid.container ? " (exact union, walls %.12g of it)"
-                         : " (exact union)",
-      v.walls / box);
+  if (s->solid.container)
+    add(s, " (exact union, walls %.12g of it; %.12g of the rest is solid)",
+        v.walls / box, (v.spheres + v.bridges) / (box - v.walls));
+  else
+    add(s, " (exact union)");
   if (!isnan(s->bare))
     add(s, "; gap: radii times %.9g, change of the fraction %+.12g", s->factor,
         v.spheres / box - s->bare);
   if (s->solid.bridge_radius > 0)
-    add(s, "; bridges: %zu, change of the fraction %+.12g +- %.1g",
-        s->solid.bridges, v.bridges / box, v.error / box);
+    add(s, "; bridges: %zu, change of the fraction %+.12g", s->solid.bridges,
+        v.bridges / box);
+  if (s->solid.bridge_radius > 0 || s->container.radius > 0)
+    add(s, " +- %.1g", v.error / box);
 }
 
 void shape_say(struct shape *s) {
@@ -252,6 +323,42 @@ void shape_bounds(const struct shape *s, double box[6]) {
   }
 }
 
+void shape_domain(const struct shape *s, double box[6]) {
+  memcpy(box, s->box, sizeof s->box);
+  for (int k = 0; k < 6 && s->solid.container; k++)
+    box[k] = nearer(k, box[k], s->container.box[k]);
+}
+
+/* The middle of the box; its diagonal. */
+static double middle_of(const double box[6], double middle[3]) {
+  double side[3];
+  for (int k = 0; k < 3; k++) {
+    side[k] = box[2 * k + 1] - box[2 * k];
+    middle[k] = box[2 * k] + side[k] / 2;
+  }
+  return vec3_norm(side);
+}
+
+void shape_tube(const struct shape *s, double from[3], double to[3]) {
+  const struct container *c = &s->container;
+  double middle[3], away[3];
+  const double length = middle_of(s->box, middle);
+  container_away(c, middle, away);
+  vec3_sub(middle, away, from);
+  memcpy(to, from, 3 * sizeof *to);
+  vec3_axpy(-length, c->axis, from);
+  vec3_axpy(length, c->axis, to);
+}
+
+void shape_plane(const struct shape *s, size_t k, double foot[3],
+                 double outwards[3]) {
+  const double *plane = s->planes[k];
+  const double length = middle_of(s->box, foot);
+  vec3_axpy(plane[3] - vec3_dot(plane, foot), plane, foot);
+  for (int m = 0; m < 3; m++)
+    outwards[m] = length * plane[m];
+}
+
 double shape_least_radius(const struct shape *s) {
   return least_radius(&s->bed);
 }
@@ -259,6 +366,8 @@ double shape_least_radius(const struct shape *s) {
 void shape_free(struct shape *s) {
   free(s->ends);
   s->ends = NULL;
+  free(s->planes);
+  s->planes = NULL;
   bed_free(&s->bed);
   bed_free(&s->images);
 }

@@ -34,16 +34,16 @@ struct shape {
   double source_box[6];
   double scale, offset[3];
   bool box_given;
-  double box[6];       /* the one of the options, as it is handed over */
-  double lattice[6];   /* by walls and spheres, for formats with a cell */
-  double container[6]; /* infinite where there is no wall */
-  bool walled[6];
-  uint32_t (*ends)[2]; /* of the bridges */
-  double bare;         /* the spheres' fraction before --gap; NaN without it */
-  double factor;       /* of radii by it */
+  double box[6];     /* the one of the options, as it is handed over */
+  double lattice[6]; /* by walls and spheres, for formats with a cell */
+  struct container container; /* with --walls, of the solid */
+  double (*planes)[4];        /* of it */
+  uint32_t (*ends)[2];        /* of the bridges */
+  double bare;   /* the spheres' fraction before --gap; NaN without it */
+  double factor; /* of radii by it */
   /* what shape_measure finds */
   double fraction;     /* solid, of the box; NaN if that has no digits */
-  char statement[400]; /* what is solid, for standard error and headers */
+  char statement[560]; /* what is solid, for standard error and headers */
   bool changed;        /* by --gap or --bridge */
   char more[400];      /* what a format says of it besides; or empty */
 };
@@ -68,6 +68,17 @@ const char *shape_note(struct shape *s);
 
 /* The box that holds the solid, without walls; infinite without spheres. */
 void shape_bounds(const struct shape *s, double box[6]);
+
+/* The box within walls along the axes: what a mesher has to fill, or more than
+   that. */
+void shape_domain(const struct shape *s, double box[6]);
+
+/* A piece of the tube's axis that reaches beyond the box on both sides, and a
+   segment from a slanting wall outwards, so long and from such a foot that a
+   cylinder about it as wide as it is long holds all of the box beyond. */
+void shape_tube(const struct shape *s, double from[3], double to[3]);
+void shape_plane(const struct shape *s, size_t k, double foot[3],
+                 double outwards[3]);
 
 double shape_least_radius(const struct shape *s); /* infinite without any */
 

@@ -67,16 +67,57 @@ static void write_block(FILE *out, const double box[6], size_t cells) {
   fprintf(out, ");\nmergePatchPairs ();\n");
 }
 
-static void write_snappy(FILE *out, const double point[3], double clearance) {
+/* A tube and slanting walls, which the mesher knows as such: their geometry or
+   how finely it is resolved. */
+static void put_walls(FILE *out, const struct shape *s, bool geometry) {
+  const struct container *c = s->solid.container;
+  double p[3], q[3];
+  if (c && c->radius > 0 && geometry) {
+    shape_tube(s, p, q);
+    fputs("    tube\n    {\n        type searchableCylinder;\n        point1 ",
+          out);
+    put_point(out, p[0], p[1], p[2]);
+    fputs(";\n        point2 ", out);
+    put_point(out, q[0], q[1], q[2]);
+    char text[NUMBER_SIZE];
+    number_format(c->radius, text);
+    fprintf(out, ";\n        radius %s;\n    }\n", text);
+  } else if (c && c->radius > 0) {
+    fputs("        tube { level (1 1); }\n", out);
+  }
+  for (size_t k = 0; c && k < c->planes; k++) {
+    fprintf(out,
+            geometry ? "    wall%zu\n" : "        wall%zu { level (1 1); }\n",
+            k);
+    if (!geometry)
+      continue;
+    shape_plane(s, k, p, q);
+    fputs("    {\n        type searchablePlane;\n"
+          "        planeType pointAndNormal;\n"
+          "        pointAndNormalDict\n        {\n            basePoint ",
+          out);
+    put_point(out, p[0], p[1], p[2]);
+    fputs(";\n            normal ", out);
+    put_point(out, q[0], q[1], q[2]);
+    fputs(";\n        }\n    }\n", out);
+  }
+}
+
+static void write_snappy(FILE *out, const struct shape *s,
+                         const double point[3], double clearance) {
+  fprintf(out, "castellatedMesh true;\nsnap true;\naddLayers false;\n\n"
+               "geometry\n{\n"
+               "    spheres.stl { type triSurfaceMesh; name spheres; }\n");
+  put_walls(out, s, true);
+  fprintf(out, "}\n\ncastellatedMeshControls\n{\n"
+               "    maxLocalCells 100000000;\n    maxGlobalCells 100000000;\n"
+               "    minRefinementCells 0;\n    nCellsBetweenLevels 2;\n"
+               "    resolveFeatureAngle 30;\n    features ();\n"
+               "    refinementSurfaces\n    {\n"
+               "        spheres { level (1 1); }\n");
+  put_walls(out, s, false);
   fprintf(out,
-          "castellatedMesh true;\nsnap true;\naddLayers false;\n\n"
-          "geometry\n{\n"
-          "    spheres.stl { type triSurfaceMesh; name spheres; }\n}\n\n"
-          "castellatedMeshControls\n{\n"
-          "    maxLocalCells 100000000;\n    maxGlobalCells 100000000;\n"
-          "    minRefinementCells 0;\n    nCellsBetweenLevels 2;\n"
-          "    resolveFeatureAngle 30;\n    features ();\n"
-          "    refinementSurfaces { spheres { level (1 1); } }\n"
+          "    }\n"
           "    refinementRegions {}\n"
           "    allowFreeStandingZoneFaces false;\n"
           "    // in the pore, %.4g from everything\n"
@@ -136,9 +177,12 @@ void write_openfoam(const char *folder, const struct write_frame *f,
   /* the mesh has the volume of its surface, which should be the spheres' */
   struct write_options bodies = *o;
   bodies.equal_volume = true;
+  bodies.apart = true;
   write_stl(surface.stream, f, &bodies);
-  write_block(block.stream, s->box, o->cells[0]);
-  write_snappy(snappy.stream, point, clearance);
+  double domain[6];
+  shape_domain(s, domain);
+  write_block(block.stream, domain, o->cells[0]);
+  write_snappy(snappy.stream, s, point, clearance);
   fprintf(control.stream, "application snappyHexMesh;\nstartFrom startTime;\n"
                           "startTime 0;\nstopAt endTime;\nendTime 1;\n"
                           "deltaT 1;\nwriteControl timeStep;\n"

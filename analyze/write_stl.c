@@ -163,17 +163,12 @@ static size_t prism_facets(size_t sides) {
 
 static void put_prism(FILE *out, const double a[3], const double b[3],
                       double radius, size_t sides) {
-  double axis[3], u[3], v[3], other[3] = {0, 0, 0}, corner[4][3];
+  double axis[3], u[3], v[3], corner[4][3];
   vec3_sub(b, a, axis);
-  int least = 0;
-  for (int k = 1; k < 3; k++)
-    if (fabs(axis[k]) < fabs(axis[least]))
-      least = k;
-  other[least] = 1;
-  vec3_cross(axis, other, u);
-  const double length = vec3_norm(axis), norm = vec3_norm(u);
+  vec3_across(axis, u);
+  const double length = vec3_norm(axis);
   for (int k = 0; k < 3; k++)
-    u[k] *= radius / norm;
+    u[k] *= radius;
   vec3_cross(axis, u, v);
   for (int k = 0; k < 3; k++)
     v[k] /= length;
@@ -220,8 +215,8 @@ static void put_box(FILE *out, const double box[6]) {
 static size_t plates(const struct shape *s, double plate[6][6]) {
   size_t count = 0;
   for (int k = 0; k < 6 && s->solid.container; k++) {
-    const double wall = s->container[k];
-    if (!s->walled[k] || (k % 2 ? s->box[k] <= wall : s->box[k] >= wall))
+    const double wall = s->container.box[k];
+    if (k % 2 ? s->box[k] <= wall : s->box[k] >= wall)
       continue;
     memcpy(plate[count], s->box, sizeof s->box);
     plate[count][k ^ 1] = wall;
@@ -265,7 +260,10 @@ static void write_bodies(FILE *out, const struct shape *s,
     m++;
   const size_t count = 20 * m * m, sides = GSL_MAX(8, 5 * m);
   double plate[6][6];
-  const size_t walls = plates(s, plate);
+  if (!o->apart && s->solid.container && container_slants(s->solid.container))
+    frame_refuse(s->frames, s->source,
+                 "--walls: a tube or slanting wall, expected --merged with it");
+  const size_t walls = o->apart ? 0 : plates(s, plate);
   check_count((double)count * (double)b->n +
               (double)prism_facets(sides) * (double)s->solid.bridges +
               (double)PLATE_FACETS * (double)walls);

@@ -183,6 +183,26 @@ static void write_flags(FILE *out, const struct write_options *o, size_t nx,
   }
 }
 
+/* x and z change places. */
+static void turn(const double from[3], double to[3]) {
+  for (int k = 0; k < 3; k++)
+    to[k] = from[2 - k];
+}
+
+static void turn_container(const struct container *from, struct container *to,
+                           double (*plane)[4]) {
+  *to = *from;
+  for (int k = 0; k < 6; k++)
+    to->box[k] = from->box[2 * (2 - k / 2) + k % 2];
+  turn(from->point, to->point);
+  turn(from->axis, to->axis);
+  for (size_t k = 0; k < from->planes; k++) {
+    turn(from->plane[k], plane[k]);
+    plane[k][3] = from->plane[k][3];
+  }
+  to->plane = (const double(*)[4])plane;
+}
+
 /* Palabos reads whole numbers as text, x slowest, then y, then z: the rows of
    the grid that is turned so that x and z change places. */
 void write_palabos(FILE *out, const struct write_frame *f,
@@ -193,18 +213,20 @@ void write_palabos(FILE *out, const struct write_frame *f,
   const size_t cells[3] = {o->cells[2], o->cells[1], o->cells[0]};
   double *x = measure_alloc(3 * s->n, sizeof *x);
   for (size_t i = 0; i < s->n; i++)
-    for (size_t k = 0; k < 3; k++)
-      x[3 * i + k] = s->x[3 * i + 2 - k];
-  double container[6];
+    turn(s->x + 3 * i, x + 3 * i);
+  struct container container;
+  double(*plane)[4] =
+      measure_alloc(s->container ? s->container->planes : 0, sizeof *plane);
   struct solid solid = *s;
   solid.x = x;
-  for (int k = 0; k < 6 && s->container; k++)
-    container[k] = s->container[2 * (2 - k / 2) + k % 2];
-  if (s->container)
-    solid.container = container;
+  if (s->container) {
+    turn_container(s->container, &container, plane);
+    solid.container = &container;
+  }
   struct write_options flags = *o;
   flags.binary = true;
   write_grid(out, f, &flags, &solid, turned, cells, write_flags);
+  free(plane);
   free(x);
 }
 

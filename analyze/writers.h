@@ -13,6 +13,7 @@
 struct write_options {
   size_t cells[3]; /* voxels along x, y, z */
   bool binary, distance, single, equal_volume, merged, network, quiet;
+  bool apart; /* stl: walls are somewhere else */
   size_t facets, threads;
 };
 

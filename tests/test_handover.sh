@@ -368,6 +368,62 @@ check 'walls: palabos turns them, too' [ "$(od -An -v -w1 -tu1 "$T/raw" | awk '
   {v[NR - 1] = $1} END {for (i = 0; i < 4; i++) for (j = 0; j < 5; j++)
     for (k = 0; k < 6; k++) printf "%d", v[i + 4 * (j + 5 * k)]}')" = \
   "$(cat "$T/text")" ]
+# a tube in the place of the side walls, and one that leans with an end across,
+# of a few spheres on the floor
+awk '/^[0-9]/ && ++n > 25 {next} {print}' "$T/bed" >"$T/small"
+sed '/^# wall=/d; s/^# model=.*/&\n# wall=0 0 0 0 0 -1\n# cylinder=0.5 0.5 7 0 0 1 0.5/' \
+  "$T/small" >"$T/tube"
+sed '/^# wall=/d; s/^# model=.*/&\n# cylinder=0.5 0.5 0 0.6 0 0.8 0.4\n# wall=0.5 0.5 0.1 -0.6 0 -0.8/' \
+  "$T/small" >"$T/lean"
+hand --format raw --cells 40 --walls "$T/tube" >"$T/raw"
+check 'tube: the box is around it' grep -q \
+  'of the box -0.1,1.1,-0.1,1.1,-0.1,0.7' "$T/said"
+high=$(sed -n 's/.*of the box -0.1,1.1,-0.1,1.1,-0.1,\([0-9.]*\) .*/\1/p' "$T/said")
+near 'tube: it is as high as the square in it is wide' "$high" 0.70710678118654757 1e-15
+near 'tube: the share of the walls' "$(stated 'walls')" "$(awk -v h="$high" \
+  'BEGIN {printf "%.17g", 1 - atan2(0, -1) / 4 * h / (1.44 * (h + 0.1))}')" 1e-11
+near 'tube: voxels' "$(stated 'mean solid fraction')" \
+  "$(stated 'solid fraction')" 2e-5
+# between two shells, the spheres of the inner and what profile has between
+between=$("$B/analyze" profile --cylinder 0.5,0.5,0.5 --from-wall 0.1 \
+  --points 200 --box "0,1,0,1,0,$high" "$T/tube" 2>"$T/err" | awk -F '\t' '
+  NR > 1 {a = 0.5 - $2; sum += $4 * 2 * atan2(0, -1) * a * 0.1}
+  END {print sum / (NR - 1)}')
+outer=$(sed -n 's/.*; \([0-9.]*\) of the rest.*/\1/p' "$T/said")
+sed 's/^# cylinder=.*/# cylinder=0.5 0.5 7 0 0 1 0.4/' "$T/tube" >"$T/thin"
+hand --format raw --cells 2 --walls --box "0,1,0,1,0,$high" "$T/thin" >"$T/raw"
+inner=$(sed -n 's/.*; \([0-9.]*\) of the rest.*/\1/p' "$T/said")
+near 'tube: what is between two of them' "$(awk -v o="$outer" -v i="$inner" \
+  'BEGIN {printf "%.17g", atan2(0, -1) * (o * 0.25 - i * 0.16)}')" "$between" 2e-5
+for keep in tube lean; do
+  hand --format raw --binary --cells 7,6,5 --walls "$T/$keep" >"$T/raw"
+  hand --format palabos --cells 7,6,5 --walls "$T/$keep" >"$T/text"
+  check "$keep: palabos turns it" cmp -s <(od -An -v -w1 -tu1 "$T/raw" | awk '
+    {v[NR - 1] = $1} END {for (i = 0; i < 7; i++) for (j = 0; j < 6; j++)
+      for (k = 0; k < 5; k++) print v[i + 7 * (j + 6 * k)]}') \
+    <(tr ' ' '\n' <"$T/text")
+  hand --format stl --merged --cells 60 --walls "$T/$keep" >"$T/stl"
+  check "$keep: merged within the bound" awk -v d="$(stated 'that is')" \
+    -v b="$(stated '(step\/r)^2\/3 =')" \
+    'BEGIN {exit !(b > 0 && b < 0.04 && d < b && -d < b)}'
+  hand --format geo --walls --scale 2 --offset 1,0,0 "$T/$keep" >"$T/geo"
+  solid=$(stated 'solid fraction')
+  hand --format geo --walls "$T/$keep" >"$T/geo"
+  near "$keep: in other units" "$solid" "$(stated 'solid fraction')" 1e-9
+  check "$keep: geo has its walls" grep -q 'Physical Surface("walls")' "$T/geo"
+  check "$keep: openfoam" hand --format openfoam --walls --output "$T/foam" \
+    "$T/$keep"
+  check "$keep: openfoam has the tube" grep -q searchableCylinder \
+    "$T/foam/system/snappyHexMeshDict"
+  refuse "$keep: as bodies" 3 'expected --merged' --format stl --walls "$T/$keep"
+done
+check 'lean: geo cuts the tube off' grep -q 'Volume{inside()}' "$T/geo"
+check 'lean: openfoam, too' grep -q 'type searchablePlane' \
+  "$T/foam/system/snappyHexMeshDict"
+sed 's/^# cylinder=.*/&\n&/' "$T/tube" >"$T/tubes"
+refuse 'two tubes' 3 'several cylinders' --format raw --walls "$T/tubes"
+refuse 'a box within the tube' 3 'none is within --box' --format raw --walls \
+  --box 0.4,0.6,0.4,0.6,0.1,0.3 "$T/tube"
 refuse 'no walls' 3 '--walls: the header has none' --format raw --walls \
   "$T/two.csv"
 refuse 'walls beyond the box' 3 '--walls: none is within --box' --format raw \
@@ -403,7 +459,9 @@ hand --format geo "$T/pair.csv" >"$T/geo"
 check 'geo: spheres that just touch' grep -q '1 pair of spheres touch' "$T/said"
 refuse 'geo: beads too small for its tolerance' 3 'tolerance of 1e-07: --scale' \
   --format geo --scale 0.0001 "$T/bed"
-refuse 'geo: walls' 2 '--walls: not for --format geo' --format geo --walls "$T/bed"
+hand --format geo --walls "$T/bed" >"$T/geo"
+check 'geo: the box ends at the walls' grep -q '^Box(1) = {0, 0, 0, 1, 1, 1};$' \
+  "$T/geo"
 
 # --- OpenFOAM ----------------------------------------------------------------
 check 'openfoam' hand --format openfoam --output "$T/foam" --scale 0.5 \

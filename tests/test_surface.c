@@ -212,20 +212,34 @@ static void test_crowd(gsl_rng *rng) {
   s.ends = (const uint32_t(*)[2])ends;
   static const double part[6] = {0.1, 0.9, 0.05, 1.1, -0.1, 0.8};
   static const double outer[6] = {-0.2, 1.2, -0.2, 1.2, -0.2, 1};
-  static const double inner[6] = {0, 1, 0, 1, 0, GSL_POSINF};
+  static const struct container inner = {
+      .box = {0, 1, 0, 1, 0, GSL_POSINF}};
+  /* a tube that leans, with an end across it */
+  static const double end[1][4] = {{0.6, 0, -0.8, 0.1}};
+  static const struct container tube = {
+      .box = {GSL_NEGINF, GSL_POSINF, GSL_NEGINF, GSL_POSINF, 0, GSL_POSINF},
+      .planes = 1,
+      .plane = end,
+      .radius = 0.45,
+      .point = {0.4, 0.5, 0},
+      .axis = {-0.28, 0, 0.96}};
   bounds(&s, box);
   const double whole = exact(&s, box), clipped = exact(&s, part);
   struct solid walled = s;
-  walled.container = inner;
-  const double in_walls = exact(&walled, outer);
+  walled.container = &inner;
+  struct solid tubed = s;
+  tubed.container = &tube;
+  const double in_walls = exact(&walled, outer), in_tube = exact(&tubed, outer);
   for (size_t cells = 40; cells <= 80; cells *= 2) {
     const double step = 1.4 / (double)cells / 0.1;
     const double a = surface_case(&s, NULL, cells, NULL) / whole - 1;
     const double b = surface_case(&s, part, cells, NULL) / clipped - 1;
     const double c = surface_case(&walled, outer, cells, NULL) / in_walls - 1;
+    const double d = surface_case(&tubed, outer, cells, NULL) / in_tube - 1;
     CHECK(fabs(a) < step * step / 3);
     CHECK(fabs(b) < step * step / 3);
     CHECK(fabs(c) < step * step / 3);
+    CHECK(fabs(d) < step * step / 3);
   }
   free(ends);
 }

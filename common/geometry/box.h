@@ -35,6 +35,14 @@ static inline bool box_misses_ball(const double box[6], const double c[3],
   return d2 >= r * r;
 }
 
+/* Distance to what is beyond a box; negative there. */
+static inline double box_distance(const double box[6], const double p[3]) {
+  double least = INFINITY;
+  for (int k = 0; k < 3; k++)
+    least = fmin(least, fmin(p[k] - box[2 * k], box[2 * k + 1] - p[k]));
+  return least;
+}
+
 static inline double box_volume(const double box[6]) {
   return (box[1] - box[0]) * (box[3] - box[2]) * (box[5] - box[4]);
 }

@@ -51,9 +51,9 @@ static int compare_parts(const void *a, const void *b) {
 
 static double look(const struct search *q, const double p[3],
                    const uint32_t *candidate, size_t count) {
-  double least = solid_beyond_distance(q->box, p);
+  double least = box_distance(q->box, p);
   if (q->s->container)
-    least = fmin(least, solid_beyond_distance(q->s->container, p));
+    least = fmin(least, container_distance(q->s->container, p));
   for (size_t m = 0; m < count; m++)
     least = fmin(least, body_distance(q->s, candidate[m], p));
   return least;

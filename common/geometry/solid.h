@@ -15,6 +15,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include "geometry/container.h"
+#include "geometry/line.h"
 #include "geometry/vec3.h"
 
 struct solid {
@@ -23,12 +25,12 @@ struct solid {
   size_t bridges;
   const uint32_t (*ends)[2]; /* each bridge's spheres, two different ones */
   double bridge_radius;
-  const double *container; /* a box; what is beyond is solid. NULL: none */
+  const struct container *container; /* what is beyond is solid; NULL: none */
 };
 
 /* Parts of the volume that share no point, and an estimate of the error beyond
-   rounding: bridges that meet more than their own two spheres are integrated
-   numerically. */
+   rounding: bridges that meet more than their own two spheres, and what of
+   spheres is beyond a tube, are integrated numerically. */
 struct solid_volume {
   double total, spheres, bridges, walls, error;
 };
@@ -89,33 +91,7 @@ static inline double solid_cylinder_distance(const double a[3],
   return hypot(fmax(side, 0), fmax(end, 0));
 }
 
-/* To what is beyond a box. */
-static inline double solid_beyond_distance(const double box[6],
-                                           const double p[3]) {
-  double least = INFINITY;
-  for (int k = 0; k < 3; k++)
-    least = fmin(least, fmin(p[k] - box[2 * k], box[2 * k + 1] - p[k]));
-  return least;
-}
-
-/* Where the line p + t e, for any e but 0, runs inside: t[0] < t < t[1]. False
-   if nowhere. */
-static inline bool solid_line_ball(const double c[3], double r,
-                                   const double p[3], const double e[3],
-                                   double t[2]) {
-  double d[3];
-  vec3_sub(p, c, d);
-  const double a = vec3_dot(e, e), b = vec3_dot(d, e);
-  const double rest = vec3_dot(d, d) - r * r, square = b * b - a * rest;
-  if (!(square > 0))
-    return false;
-  /* neither root by a difference */
-  const double q = -(b + copysign(sqrt(square), b));
-  t[0] = fmin(q / a, rest / q);
-  t[1] = fmax(q / a, rest / q);
-  return true;
-}
-
+/* As line_ball, of a cylinder from a to b. */
 static inline bool solid_line_cylinder(const double a[3], const double b[3],
                                        double radius, const double p[3],
                                        const double e[3], double t[2]) {
@@ -131,7 +107,7 @@ static inline bool solid_line_cylinder(const double a[3], const double b[3],
   t[1] = INFINITY;
   static const double none[3];
   if (vec3_dot(across, across) > 1e-24 * vec3_dot(e, e)) {
-    if (!solid_line_ball(none, radius, d, across, t))
+    if (!line_ball(none, radius, d, across, t))
       return false;
   } else if (vec3_dot(d, d) >= radius * radius) {
     return false;

@@ -153,9 +153,9 @@ static void mark(const struct surface *f, size_t k, unsigned char *inside) {
     for (size_t i = 0; i < f->nodes[0]; i++) {
       const double at[3] = {node(f, 0, i), node(f, 1, j), node(f, 2, k)};
       unsigned char *in = &inside[j * f->nodes[0] + i];
-      if (s->container && solid_beyond_distance(s->container, at) < 0)
+      if (s->container && container_distance(s->container, at) < 0)
         *in = 1;
-      if (!(solid_beyond_distance(f->region, at) > 0))
+      if (!(box_distance(f->region, at) > 0))
         *in = 0;
     }
 }
@@ -220,16 +220,11 @@ static double entry(const struct surface *f, size_t row, const double p[3],
       if (p[k] > f->region[2 * k + 1] && e[k] < 0)
         from = fmax(from, (f->region[2 * k + 1] - p[k]) / e[k]);
     }
-  for (int k = 0; k < 6 && s->container; k++) {
-    /* beyond the face when the sign of this is positive */
-    const double sign = k % 2 ? 1 : -1;
-    const double ahead = sign * (s->container[k] - p[k / 2]);
-    const double speed = sign * e[k / 2];
-    if (speed > 0)
-      least = fmin(least, fmax(from, ahead / speed));
-    else if (ahead < 0 && from * speed > ahead)
-      least = from;
-  }
+  /* where it leaves the container, if it is within that at first */
+  if (s->container)
+    least = container_line(s->container, p, e, t) && t[0] <= from && t[1] > from
+                ? fmin(least, t[1])
+                : from;
   const double reach = f->step;
   for (size_t m = f->start[row]; m < f->start[row + 1]; m++) {
     const size_t i = f->member[m];
@@ -238,7 +233,7 @@ static double entry(const struct surface *f, size_t row, const double p[3],
       const double *c = s->x + 3 * i;
       if (fabs(c[0] - p[0]) > s->r[i] + reach || !(s->r[i] > 0))
         continue;
-      meets = solid_line_ball(c, s->r[i], p, e, t);
+      meets = line_ball(c, s->r[i], p, e, t);
     } else {
       meets =
           solid_line_cylinder(end_of(s, i - s->n, 0), end_of(s, i - s->n, 1),

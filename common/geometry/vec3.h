@@ -28,6 +28,20 @@ static inline void vec3_sub(const double a[3], const double b[3], double c[3]) {
     c[k] = a[k] - b[k];
 }
 
+/* A unit vector across a: a x the axis that a has least of. */
+static inline void vec3_across(const double a[3], double u[3]) {
+  int least = 0;
+  for (int k = 1; k < 3; k++)
+    if (fabs(a[k]) < fabs(a[least]))
+      least = k;
+  double other[3] = {0, 0, 0};
+  other[least] = 1;
+  vec3_cross(a, other, u);
+  const double norm = vec3_norm(u);
+  for (int k = 0; k < 3; k++)
+    u[k] /= norm;
+}
+
 /* y += s x */
 static inline void vec3_axpy(double s, const double x[3], double y[3]) {
   for (int k = 0; k < 3; k++)

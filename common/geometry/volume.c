@@ -53,6 +53,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include "geometry/box.h"
@@ -244,11 +245,26 @@ double volume_sum(size_t n, const double *x, const double *r,
   return sum.total + sum.lost;
 }
 
-/* Volume of ball i in its power cell and the box. planes: room for 6 more than
-   the most partners. */
-static double cell_volume(const struct power *p, size_t i, const double box[6],
-                          double (*planes)[4]) {
-  size_t count = box_planes(p->x + 3 * i, p->r[i], box, planes);
+/* Where a union is measured. */
+struct place {
+  const double *box;
+  size_t planes;
+  const double (*plane)[4];
+};
+
+/* Volume of ball i in its power cell and a place. planes: room for what that
+   has and the most partners. */
+static double cell_volume(const struct power *p, size_t i,
+                          const struct place *in, double (*planes)[4]) {
+  const double *c = p->x + 3 * i;
+  size_t count = box_planes(c, p->r[i], in->box, planes);
+  for (size_t k = 0; k < in->planes; k++) {
+    const double offset = in->plane[k][3] - vec3_dot(in->plane[k], c);
+    if (offset >= p->r[i])
+      continue;
+    memcpy(planes[count], in->plane[k], 3 * sizeof(double));
+    planes[count++][3] = offset;
+  }
   for (size_t q = p->start[i]; q < p->start[i + 1]; q++) {
     const enum power_leaves leaves =
         power_plane(p, i, p->partner[q], planes[count]);
@@ -275,6 +291,14 @@ int volume_union(size_t n, const double *x, const double *r,
 int volume_union_told(size_t n, const double *x, const double *r,
                       const double box[6], const struct observer *observer,
                       double *volume) {
+  return volume_union_planes(n, x, r, box, 0, NULL, observer, volume);
+}
+
+int volume_union_planes(size_t n, const double *x, const double *r,
+                        const double box[6], size_t count,
+                        const double (*plane)[4],
+                        const struct observer *observer, double *volume) {
+  const struct place in = {box, count, plane};
   for (int k = 0; k < 6; k++)
     if (isnan(box[k]))
       return GSL_EINVAL;
@@ -282,11 +306,11 @@ int volume_union_told(size_t n, const double *x, const double *r,
   const int status = power_alloc(&p, 3, n, x, r, reaches, box);
   if (status != GSL_SUCCESS)
     return status;
-  double(*planes)[4] = calloc(p->most + 6, sizeof *planes);
+  double(*planes)[4] = calloc(p->most + 6 + count, sizeof *planes);
   struct sum sum = {0, 0};
   for (size_t i = 0; i < p->n && planes; i++) {
     observer_tell(observer, i, p->n);
-    sum_add(&sum, cell_volume(p, i, box, planes));
+    sum_add(&sum, cell_volume(p, i, &in, planes));
   }
   if (planes) {
     /* a box that is full may come out as more than that by rounding */

@@ -37,6 +37,12 @@ int volume_union(size_t n, const double *x, const double *r,
 int volume_union_told(size_t n, const double *x, const double *r,
                       const double box[6], const struct observer *observer,
                       double *volume);
+/* The same within further planes, {x: plane[0..2].x <= plane[3]} with unit
+   normals. */
+int volume_union_planes(size_t n, const double *x, const double *r,
+                        const double box[6], size_t count,
+                        const double (*plane)[4],
+                        const struct observer *observer, double *volume);
 
 /* The paper's count on count^3 midpoints of a box: sum counts a point once for
    every sphere that it lies in, united once. observer may be NULL. Returns

@@ -22,7 +22,8 @@ struct voxels {
   size_t bridges;
   double (*bridge)[2][3], bridge_radius; /* from one point to another */
   bool walled;
-  double container[6];
+  struct container container;
+  double (*plane)[4]; /* its own */
   struct ball_cell rule;
   /* the layer in work: which spheres each of its rows meets */
   size_t rows_size, members_size;
@@ -32,7 +33,8 @@ struct voxels {
 
 /* The contents of a cell: a sphere's number, or one of these. */
 static const uint32_t NOTHING = UINT32_MAX, SOLID = UINT32_MAX - 1,
-                      SEVERAL = UINT32_MAX - 2, BRIDGED = UINT32_MAX - 3;
+                      SEVERAL = UINT32_MAX - 2, BRIDGED = UINT32_MAX - 3,
+                      SLANTED = UINT32_MAX - 4;
 
 static bool grid_valid(const struct solid *s, const double box[6],
                        const size_t cells[3]) {
@@ -48,7 +50,7 @@ static bool grid_valid(const struct solid *s, const double box[6],
     if (!isfinite(s->x[3 * i]) || !isfinite(s->x[3 * i + 1]) ||
         !isfinite(s->x[3 * i + 2]) || !isfinite(s->r[i]))
       return false;
-  return s->n < BRIDGED && s->bridges < BRIDGED - s->n;
+  return s->n < SLANTED && s->bridges < SLANTED - s->n;
 }
 
 int voxels_open(struct voxels **out, const struct solid *s, const double box[6],
@@ -63,7 +65,16 @@ int voxels_open(struct voxels **out, const struct solid *s, const double box[6],
   v->x = calloc(s->n + 1, 3 * sizeof *v->x);
   v->r = calloc(s->n + 1, sizeof *v->r);
   v->bridge = calloc(s->bridges + 1, sizeof *v->bridge);
-  if (!v->x || !v->r || !v->bridge || ball_cell_init(&v->rule) != GSL_SUCCESS) {
+  if (s->container) {
+    v->walled = true;
+    v->container = *s->container;
+    v->plane = calloc(s->container->planes + 1, sizeof *v->plane);
+    for (size_t k = 0; v->plane && k < s->container->planes; k++)
+      memcpy(v->plane[k], s->container->plane[k], sizeof *v->plane);
+    v->container.plane = (const double(*)[4])v->plane;
+  }
+  if (!v->x || !v->r || !v->bridge || (v->walled && !v->plane) ||
+      ball_cell_init(&v->rule) != GSL_SUCCESS) {
     voxels_close(v);
     return GSL_ENOMEM;
   }
@@ -78,9 +89,6 @@ int voxels_open(struct voxels **out, const struct solid *s, const double box[6],
     for (int end = 0; end < 2; end++)
       memcpy(v->bridge[b][end], s->x + 3 * (size_t)s->ends[b][end],
              sizeof v->bridge[b][end]);
-  v->walled = s->container;
-  if (s->container)
-    memcpy(v->container, s->container, sizeof v->container);
   *out = v;
   return GSL_SUCCESS;
 }
@@ -90,6 +98,7 @@ void voxels_close(struct voxels *v) {
     return;
   free(v->member);
   free(v->start);
+  free(v->plane);
   free(v->bridge);
   free(v->r);
   free(v->x);
@@ -314,25 +323,33 @@ static double several_volume(struct row *w, const double cell[6]) {
 /* Lines through a cell, along either side of its face. */
 enum { LINES = 24 };
 
-/* A cell that bridges meet, too. */
-static double bridged_volume(struct row *w, const double cell[6]) {
+/* A cell that bridges or slanting walls meet, too. */
+static double lines_volume(struct row *w, const double cell[6]) {
   const struct voxels *v = w->v;
   static const double along[3] = {1, 0, 0};
   const size_t count = gather(w, cell);
+  const bool slants = v->walled && container_slants(&v->container);
   double sum = 0, p[3] = {0};
   for (int j = 0; j < LINES; j++)
     for (int k = 0; k < LINES; k++) {
       p[1] = cell[2] + (cell[3] - cell[2]) * (j + 0.5) / LINES;
       p[2] = cell[4] + (cell[5] - cell[4]) * (k + 0.5) / LINES;
       size_t cuts = 0;
+      double within[2] = {cell[0], cell[1]}, t[2];
+      if (slants) {
+        const bool any = container_line(&v->container, p, along, t);
+        within[0] = any ? fmin(fmax(cell[0], t[0]), cell[1]) : cell[1];
+        within[1] = any ? fmax(fmin(cell[1], t[1]), within[0]) : cell[1];
+        sum += cell[1] - cell[0] - (within[1] - within[0]);
+      }
       for (size_t i = 0; i < count; i++)
-        cuts += solid_line_ball(w->x + 3 * i, w->r[i], p, along, w->cut[cuts]);
+        cuts += line_ball(w->x + 3 * i, w->r[i], p, along, w->cut[cuts]);
       for (size_t m = w->count; m < w->count + w->bridges; m++) {
         const size_t b = w->member[m] - v->n;
         cuts += solid_line_cylinder(v->bridge[b][0], v->bridge[b][1],
                                     v->bridge_radius, p, along, w->cut[cuts]);
       }
-      sum += solid_covered(cuts, w->cut, cell[0], cell[1]);
+      sum += solid_covered(cuts, w->cut, within[0], within[1]);
     }
   return sum * (cell[3] - cell[2]) * (cell[5] - cell[4]) / (LINES * LINES);
 }
@@ -355,6 +372,23 @@ static void mark_bridge(struct row *w, size_t b) {
       w->holds[q] = SOLID;
     else if (d * d < half2 && w->holds[q] != SOLID)
       w->holds[q] = BRIDGED;
+  }
+}
+
+/* Marks the cells of a row that slanting walls meet, or fill. */
+static void mark_slants(struct row *w) {
+  const struct voxels *v = w->v;
+  const double side[3] = {(v->box[1] - v->box[0]) / (double)v->cells[0],
+                          w->y[1] - w->y[0], w->z[1] - w->z[0]};
+  const double half = vec3_norm(side) / 2;
+  for (size_t q = 0; q < v->cells[0]; q++) {
+    const double p[3] = {midpoint(v, 0, q), w->y[0] + side[1] / 2,
+                         w->z[0] + side[2] / 2};
+    const double d = container_slant_distance(&v->container, p);
+    if (d <= -half)
+      w->holds[q] = SOLID;
+    else if (d < half && w->holds[q] != SOLID)
+      w->holds[q] = SLANTED;
   }
 }
 
@@ -386,6 +420,8 @@ static void mark(struct row *w) {
   }
   for (size_t m = w->count; m < w->count + w->bridges; m++)
     mark_bridge(w, w->member[m] - v->n);
+  if (v->walled && container_slants(&v->container))
+    mark_slants(w);
 }
 
 /* Volume in a cell that holds this. */
@@ -393,8 +429,8 @@ static double held_volume(struct row *w, size_t held, const double cell[6]) {
   const struct voxels *v = w->v;
   if (held == SEVERAL)
     return several_volume(w, cell);
-  if (held == BRIDGED)
-    return bridged_volume(w, cell);
+  if (held == BRIDGED || held == SLANTED)
+    return lines_volume(w, cell);
   return ball_cell_volume(&v->rule, v->x + 3 * held, v->r[held], cell);
 }
 
@@ -411,8 +447,8 @@ static bool fraction_row(struct row *w, double *value) {
     double cell[6] = {edge(v, 0, i), edge(v, 0, i + 1), w->y[0],
                       w->y[1],       w->z[0],           w->z[1]};
     if (v->walled) {
-      cell[0] = fmax(cell[0], v->container[0]);
-      cell[1] = fmin(cell[1], v->container[1]);
+      cell[0] = fmax(cell[0], v->container.box[0]);
+      cell[1] = fmin(cell[1], v->container.box[1]);
       if (!(cell[0] < cell[1])) {
         value[i] = 0;
         continue;
@@ -433,8 +469,8 @@ static bool fraction_row(struct row *w, double *value) {
 static void between_walls(const struct voxels *v, int axis, double range[2],
                           double *share) {
   const double side = range[1] - range[0];
-  range[0] = fmax(range[0], v->container[2 * axis]);
-  range[1] = fmin(range[1], v->container[2 * axis + 1]);
+  range[0] = fmax(range[0], v->container.box[2 * axis]);
+  range[1] = fmin(range[1], v->container.box[2 * axis + 1]);
   *share = fmax(0, range[1] - range[0]) / side;
 }
 
@@ -482,8 +518,8 @@ static void midpoint_row(const struct row *w, double y, double z,
         value[q] = 1;
   }
   for (size_t i = 0; v->walled && i < v->cells[0]; i++)
-    if (solid_beyond_distance(v->container,
-                              (double[3]){midpoint(v, 0, i), y, z}) < 0)
+    if (container_distance(&v->container,
+                           (double[3]){midpoint(v, 0, i), y, z}) < 0)
       value[i] = 1;
 }
 
@@ -615,7 +651,7 @@ static void distances(struct block b, uint32_t *candidate, size_t count) {
         least = d < least ? d : least;
       }
       if (v->walled)
-        least = fmin(least, solid_beyond_distance(v->container, p));
+        least = fmin(least, container_distance(&v->container, p));
       row[i] = least;
     }
   }

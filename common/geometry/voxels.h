@@ -13,9 +13,9 @@
 enum voxels_value {
   /* Share of the cell inside the solid, in [0, 1]. Where one sphere meets the
      cell, or spheres do that do not overlap, to the rounding of the cell
-     (ball_cell.h); where overlapping ones do, to that of volume_union. Where a
-     bridge's surface does, by 24^2 lines through the cell, of which each is cut
-     exactly: to some 1e-3. */
+     (ball_cell.h); where overlapping ones do, to that of volume_union. Where
+     the surface of a bridge, a tube or a slanting wall does, by 24^2 lines
+     through the cell, of which each is cut exactly: to some 1e-3. */
   VOXELS_FRACTION,
   /* 1 if the midpoint is solid, else 0: of spheres what volume_sampled
      counts. */
