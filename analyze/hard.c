@@ -6,8 +6,6 @@
 #include <string.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
-#include "geometry/box.h"
-#include "geometry/volume.h"
 #include "measure/hard.h"
 #include "program/shared_options.h"
 #include "tabulate.h"

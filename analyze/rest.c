@@ -6,14 +6,12 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_statistics.h>
-#include "geometry/box.h"
 #include "dynamics/dynamics.h"
 #include "measure/network.h"
 #include "model/rest.h"
 #include "program/shared_options.h"
 #include "tabulate.h"
 #include "verbs.h"
-#include "geometry/volume.h"
 
 /* Mean net force on a sphere by the mean force of a contact; a contact is what
    touches. */

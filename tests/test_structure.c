@@ -370,16 +370,19 @@ static void test_crystal(const char *name, size_t neighbours, double q4,
   bed_free(&b);
 }
 
-/* Beyond half a period and beyond a whole one: all images of others, at 3 those
-   of (2 2 1) and not those of (3 0 0), which are the sphere itself. */
+/* Beyond half a period and a whole one, where images two periods away count:
+   all images of others, at 3 those of (2 2 1) and not those of (3 0 0), which
+   are the sphere itself, and so at sqrt(18) without (3 3 0). */
 static void test_all_images(void) {
-  enum { BINS = 34 };
+  enum { BINS = 45 };
   struct bed b;
   const struct region g = crystal("sc", 3, &b);
   double pairs[BINS], expected[BINS];
-  const double squares[][2] = {{1, 6},  {2, 12}, {3, 8},  {4, 6},   {5, 24},
-                               {6, 24}, {8, 12}, {9, 24}, {10, 24}, {11, 24}};
-  const double rmax = 3.4 * (1 - 1e-6);
+  const double squares[][2] = {{1, 6},   {2, 12},  {3, 8},   {4, 6},   {5, 24},
+                               {6, 24},  {8, 12},  {9, 24},  {10, 24}, {11, 24},
+                               {12, 8},  {13, 24}, {14, 48}, {16, 6},  {17, 48},
+                               {18, 24}, {19, 24}, {20, 24}};
+  const double rmax = 4.5 * (1 - 1e-6);
   CHECK(correlation_count(b.n, b.x, &g, rmax, BINS, NULL, pairs, expected) ==
         GSL_SUCCESS);
   for (size_t k = 0; k < BINS; k++) {
