@@ -111,11 +111,15 @@ int level_reserve(struct level *l) {
   l->rows = l->list->rows;
   l->ghosts = l->list->ghosts;
   const size_t apart = l->apart ? l->apart->ghosts : 0;
-  const size_t all = l->rows + GSL_MAX(l->ghosts, apart);
-  if (all <= l->room)
+  const size_t other = GSL_MAX(l->ghosts, apart);
+  const size_t all = l->rows + other;
+  if (all <= l->room && other <= l->ghost_room)
     return GSL_SUCCESS;
-  l->room = 0;
-  const size_t room = all + all / 2 + 16;
+  l->room = l->ghost_room = 0;
+  /* islands come and go; a whole bed stays as it is */
+  const bool grows = l->list != l->setting->dynamics->list;
+  const size_t room = grows ? all + all / 2 + 16 : all;
+  const size_t ghosts = grows ? other + other / 2 + 16 : 0;
   /* rows are loaded four doubles at a time */
   const size_t vector = room * l->stride + 4;
   free(l->flagged);
@@ -130,7 +134,8 @@ int level_reserve(struct level *l) {
       !renew(&l->change, vector) || !renew(&l->a, vector) ||
       !renew(&l->b, vector) || !renew(&l->weight, vector) ||
       !renew(&l->power.direction, vector) || !renew(&l->frozen, vector) ||
-      (l->apart && !renew(&l->away, vector)) || !renew(&l->cubic, 4 * vector) ||
+      (l->apart && !renew(&l->away, vector)) ||
+      !renew(&l->cubic, 4 * ghosts * l->stride + 4) ||
       !renew(&l->error, room) || !renew(&l->wanted, room) ||
       !renew(&l->partner_error, room) || !l->flagged || !l->refined ||
       !l->whole)
@@ -138,6 +143,7 @@ int level_reserve(struct level *l) {
   l->near->frozen = l->frozen;
   l->far->frozen = l->list->frozen = l->away;
   l->room = room;
+  l->ghost_room = ghosts;
   return GSL_SUCCESS;
 }
 

@@ -42,7 +42,7 @@ struct level {
   double *away;
   const struct contact_list *active; /* what stages see: list or near */
   size_t rows, ghosts, stride;
-  size_t room; /* rows that the arrays have room for */
+  size_t room, ghost_room; /* rows and ghosts that there is room for */
 
   /* State and rates at the start of a step and at its end, stages, what far
      contacts give, and 1 by what errors are measured in (dynamics_scale): a row
