@@ -23,41 +23,48 @@ static const struct format {
   const char *takes; /* options that not every format takes */
   write_function *write;
   write_files_function *write_files; /* or this, for several files */
-  double base;                       /* its side, unless --scale says more */
-  double cells;                      /* that --cells has unless it is given */
-  bool cells_along;                  /* --cells is N, along the longest side */
-  bool cells_merged;                 /* --cells needs --merged */
-  bool binary;                       /* nothing for a terminal */
-  bool many;                         /* frames in one file */
-  bool series;                       /* ParaView's .pvd lists such files */
-  bool boxed;                        /* it is what the box holds */
-  bool full;                         /* is nothing without spheres */
+  double sphere;     /* bytes of one, at least, where they are most of a file */
+  double base;       /* its side, unless --scale says more */
+  double cells;      /* that --cells has unless it is given */
+  bool cells_along;  /* --cells is N, along the longest side */
+  bool cells_merged; /* --cells needs --merged */
+  bool binary;       /* nothing for a terminal */
+  bool many;         /* frames in one file */
+  bool series;       /* ParaView's .pvd lists such files */
+  bool boxed;        /* it is what the box holds */
+  bool full;         /* is nothing without spheres */
 } formats[] = {
     {.name = "positions",
      .help = "x y z of the centres, tab-separated, nothing else",
+     .sphere = 30,
      .takes = "scale offset",
      .write = write_positions},
     {.name = "csv",
      .help = "a row of names, one row per sphere, the first column t",
+     .sphere = 100,
      .takes = "scale offset",
      .write = write_csv,
      .many = true},
     {.name = "xyz",
      .help = "extended XYZ: OVITO, ASE",
+     .sphere = 100,
      .takes = "scale offset box",
      .write = write_xyz,
      .many = true},
     {.name = "lammps",
      .help = "text dump: OVITO, LAMMPS's read_dump and rerun",
+     .sphere = 100,
      .takes = "scale offset box",
      .write = write_lammps,
      .many = true},
     {.name = "lammps-data",
      .help = "data file of atom style sphere",
+     .sphere = 100,
      .takes = "scale offset box",
      .write = write_lammps_data},
     {.name = "vtp",
      .help = "VTK PolyData, one vertex per sphere: ParaView",
+     .sphere = 100,
      .takes = "scale offset network",
      .write = write_vtp,
      .binary = true,
@@ -93,6 +100,7 @@ static const struct format {
      .boxed = true},
     {.name = "geo",
      .help = "gmsh script: the pore, a box less spheres, named surfaces",
+     .sphere = 50,
      .takes = "scale offset box" SOLID,
      .write = write_geo,
      .boxed = true},
@@ -110,6 +118,7 @@ static const struct format {
      .base = 0.03},
     {.name = "bed",
      .help = "our own format",
+     .sphere = 100,
      .takes = "box",
      .write = write_bed,
      .full = true},
@@ -211,12 +220,17 @@ static void write_one(FILE *out, const char *name, const struct request *q,
   if (q->format->boxed)
     box_watch_see(q->watch, frames, b, !q->shape.box_given, 1,
                   (const double(*)[6])s->source_box);
-  struct write_frame f = {
-      .shape = s, .bed = &s->bed, .number = number, .first = first};
+  struct write_frame f = {.shape = s,
+                          .bed = &s->bed,
+                          .name = name,
+                          .number = number,
+                          .first = first};
   long least = 1;
   for (size_t i = 0; i < b->n; i++)
     least = GSL_MIN(least, b->id[i]);
   f.id_offset = 1 - least;
+  if (out)
+    output_need_room(out, name, q->format->sphere * (double)b->n);
   if (q->format->write_files)
     q->format->write_files(name, &f, &q->write);
   else

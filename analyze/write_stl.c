@@ -112,7 +112,9 @@ static double facets_volume(size_t count, const double (*facet)[9]) {
   return six / 6;
 }
 
-static void put_header(FILE *out, const char *text, size_t facets) {
+static void put_header(FILE *out, const char *name, const char *text,
+                       size_t facets) {
+  output_need_room(out, name, 84 + 50 * (double)facets);
   char header[81];
   memset(header, ' ', sizeof header);
   const size_t length = strlen(text);
@@ -252,7 +254,7 @@ static double shortest_edge(size_t count, const double (*facet)[9]) {
   return shortest;
 }
 
-static void write_bodies(FILE *out, const struct shape *s,
+static void write_bodies(FILE *out, const char *name, const struct shape *s,
                          const struct write_options *o, const char *note) {
   const struct bed *b = &s->bed;
   size_t m = (size_t)ceil(sqrt((double)o->facets / 20));
@@ -292,7 +294,7 @@ static void write_bodies(FILE *out, const struct shape *s,
     snprintf(text, sizeof text,
              "analyze export %s: %zu facets per sphere, volume %.6f of a ball",
              DEM_VERSION, count, share);
-  put_header(out, text,
+  put_header(out, name, text,
              count * b->n + prism_facets(sides) * s->solid.bridges +
                  PLATE_FACETS * walls);
   for (size_t i = 0; i < b->n && !ferror(out); i++) {
@@ -341,7 +343,7 @@ static void check_merged(int status, size_t cells) {
 }
 
 /* One closed surface of the union: of all of it, or within a box. */
-static void write_merged(FILE *out, struct shape *s,
+static void write_merged(FILE *out, const char *name, struct shape *s,
                          const struct write_options *o) {
   const bool clip = s->box_given || s->solid.container;
   double region[6];
@@ -366,7 +368,7 @@ static void write_merged(FILE *out, struct shape *s,
   snprintf(text, sizeof text,
            "analyze export %s: union of %zu spheres, %zu bridges, volume %.9g",
            DEM_VERSION, s->bed.n, s->solid.bridges, exact.total);
-  put_header(out, text, count);
+  put_header(out, name, text, count);
   struct merged merged = {.out = out};
   for (int k = 0; k < 3; k++)
     merged.origin[k] = region[2 * k];
@@ -383,7 +385,7 @@ static void write_merged(FILE *out, struct shape *s,
 void write_stl(FILE *out, const struct write_frame *f,
                const struct write_options *o) {
   if (o->merged)
-    write_merged(out, f->shape, o);
+    write_merged(out, f->name, f->shape, o);
   else
-    write_bodies(out, f->shape, o, shape_note(f->shape));
+    write_bodies(out, f->name, f->shape, o, shape_note(f->shape));
 }

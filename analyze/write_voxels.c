@@ -117,8 +117,17 @@ static void write_grid(FILE *out, const struct write_frame *f,
   free(told.solid);
 }
 
+/* What the numbers take is known before the first. */
+static void need_room(FILE *out, const char *name,
+                      const struct write_options *o, size_t each) {
+  output_need_room(out, name,
+                   (double)o->cells[0] * (double)o->cells[1] *
+                       (double)o->cells[2] * (double)each);
+}
+
 static void write_cells(FILE *out, const struct write_frame *f,
                         const struct write_options *o) {
+  need_room(out, f->name, o, number_size(o));
   write_grid(out, f, o, &f->shape->solid, f->shape->box, o->cells,
              write_numbers);
 }
@@ -211,6 +220,7 @@ void write_palabos(FILE *out, const struct write_frame *f,
   const double *box = f->shape->box;
   const double turned[6] = {box[4], box[5], box[2], box[3], box[0], box[1]};
   const size_t cells[3] = {o->cells[2], o->cells[1], o->cells[0]};
+  need_room(out, f->name, o, sizeof "0 " - 1);
   double *x = measure_alloc(3 * s->n, sizeof *x);
   for (size_t i = 0; i < s->n; i++)
     turn(s->x + 3 * i, x + 3 * i);

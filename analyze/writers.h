@@ -20,6 +20,7 @@ struct write_options {
 struct write_frame {
   struct shape *shape;
   const struct bed *bed; /* the shape's */
+  const char *name;      /* of the output, NULL: standard output */
   size_t number;         /* of the frame in its input, from 0 */
   bool first;            /* in its file */
   long id_offset;        /* for formats whose numbers begin at 1 */

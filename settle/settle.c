@@ -7,6 +7,7 @@
 #include "dynamics/dynamics.h"
 #include "platform/system.h"
 #include "export_lammps.h"
+#include "memory.h"
 #include "run.h"
 #include "program/integration.h"
 #include "program/shared_options.h"
@@ -245,6 +246,7 @@ int main(int argc, char **argv) {
   if (s.resume) {
     check_resume(options);
     checkpoint_open(&from, s.resume, &setup, &setup.order);
+    memory_check(&s, bed.n);
     s.all_pairs = !strcmp(s.pairs, pair_searches[ALL]);
   } else {
     start_make(&s, options, &bed, &header);

@@ -18,6 +18,7 @@
 #include "files/radius_keys.h"
 #include "program/size_options.h"
 #include "program/version.h"
+#include "memory.h"
 #include "soft.h"
 
 static void check_memory(int status) {
@@ -656,6 +657,8 @@ void start_make(struct settings *s, struct option_spec *options, struct bed *b,
   if (wrong)
     die(EXIT_USAGE, "--%s", wrong);
   check_turning(&s->scene, options);
+  if (!s->lammps)
+    memory_check(s, b->n + below.n);
   check_tubes(s, b, name);
   check_periods(s, b, header, name);
   if (s->onto)

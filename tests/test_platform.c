@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the system tells of a process that does known things. */
 #define _POSIX_C_SOURCE 200809L
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include "check.h"
@@ -37,6 +40,46 @@ static void test_memory(void) {
   free((void *)block);
 }
 
+/* The least limit counts, and says which it is. */
+static void test_limits(void) {
+  struct rlimit all, own = {0};
+  const struct system_memory m = system_memory();
+  const double machine =
+      (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+  CHECK(getrlimit(RLIMIT_AS, &all) == 0);
+  CHECK(m.most > 1e6 && m.by);
+  if (!strcmp(m.by, "the machine")) /* with its swap */
+    CHECK(m.most >= machine && m.unused <= machine);
+  own = all;
+  own.rlim_cur = 100000000;
+  if (CHECK(setrlimit(RLIMIT_AS, &own) == 0)) {
+    const struct system_memory less = system_memory();
+    CHECK(less.most == 1e8 && !strcmp(less.by, "ulimit -v"));
+    CHECK(setrlimit(RLIMIT_AS, &all) == 0);
+  }
+  CHECK(system_memory().most == m.most);
+}
+
+/* What a file may grow by: less by what it has. */
+static void test_room(void) {
+  FILE *file = tmpfile();
+  struct rlimit all, own;
+  if (!CHECK(file != NULL))
+    return;
+  CHECK(system_room(fileno(file)).bytes > 0);
+  CHECK(getrlimit(RLIMIT_FSIZE, &all) == 0);
+  own = all;
+  own.rlim_cur = 3000;
+  CHECK(setrlimit(RLIMIT_FSIZE, &own) == 0);
+  fputs("1234567890", file);
+  fflush(file);
+  const struct system_room room = system_room(fileno(file));
+  CHECK(room.bytes == 2990 && !strcmp(room.by, "ulimit -f"));
+  CHECK(setrlimit(RLIMIT_FSIZE, &all) == 0);
+  CHECK(system_room(fileno(file)).bytes > 2990);
+  fclose(file);
+}
+
 static void test_program(const char *name) {
   char path[4096], small[4];
   struct stat told, real;
@@ -50,6 +93,8 @@ int main(int argc, char **argv) {
   (void)argc;
   test_threads();
   test_memory();
+  test_limits();
+  test_room();
   test_program(argv[0]);
   return check_done();
 }

@@ -3,8 +3,12 @@
 #include "platform/system.h"
 
 #include <limits.h> /* says which C library this is */
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 #include <sys/resource.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 #include <gsl/gsl_version.h>
 #ifdef __GLIBC__
@@ -44,6 +48,116 @@ long system_peak_memory(void) {
 #else
   return (long)usage.ru_maxrss;
 #endif
+}
+
+static void limit(struct system_memory *m, double bytes, const char *by) {
+  if (bytes < m->most) {
+    m->most = bytes;
+    m->by = by;
+  }
+}
+
+#ifndef __APPLE__
+/* The number behind a name in lines of "NAME: NUMBER kB", in bytes; infinite:
+   there is none. */
+static double kilobytes_of(const char *path, const char *name) {
+  char line[256];
+  double kilobytes = INFINITY;
+  const size_t length = strlen(name);
+  FILE *in = fopen(path, "r");
+  if (!in)
+    return kilobytes;
+  while (fgets(line, sizeof line, in))
+    if (!strncmp(line, name, length) && line[length] == ':')
+      kilobytes = strtod(line + length + 1, NULL);
+  fclose(in);
+  return 1024 * kilobytes;
+}
+
+/* A number that is a file, "max" for none. */
+static double number_of(const char *path) {
+  char line[64], *end;
+  FILE *in = fopen(path, "r");
+  if (!in)
+    return INFINITY;
+  const bool read = fgets(line, sizeof line, in) != NULL;
+  fclose(in);
+  const double x = read ? strtod(line, &end) : 0;
+  return read && end > line ? x : INFINITY;
+}
+
+/* Of the group at path below a root and of all above it. */
+static void limit_by_group(struct system_memory *m, const char *root,
+                           char *path, const char *file) {
+  char name[4608];
+  for (;;) {
+    snprintf(name, sizeof name, "%s%s/%s", root, path, file);
+    limit(m, number_of(name), "its control group");
+    char *slash = strrchr(path, '/');
+    if (!slash)
+      return;
+    *slash = 0;
+  }
+}
+
+/* /proc/self/cgroup has a line NUMBER:NAMES:PATH for each hierarchy, without
+   names for version 2. */
+static void limit_by_groups(struct system_memory *m) {
+  char line[4352];
+  FILE *in = fopen("/proc/self/cgroup", "r");
+  if (!in)
+    return;
+  while (fgets(line, sizeof line, in)) {
+    line[strcspn(line, "\n")] = 0;
+    char *names = strchr(line, ':');
+    char *path = names ? strchr(names + 1, ':') : NULL;
+    if (!path)
+      continue;
+    *path++ = 0;
+    if (!names[1])
+      limit_by_group(m, "/sys/fs/cgroup", path, "memory.max");
+    else if (!strcmp(names + 1, "memory"))
+      limit_by_group(m, "/sys/fs/cgroup/memory", path, "memory.limit_in_bytes");
+  }
+  fclose(in);
+}
+#endif
+
+struct system_memory system_memory(void) {
+  struct system_memory m = {INFINITY, INFINITY, NULL};
+  struct rlimit r;
+  const long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
+  double machine =
+      pages > 0 && size > 0 ? (double)pages * (double)size : INFINITY;
+#ifndef __APPLE__
+  const char info[] = "/proc/meminfo";
+  const double swap = kilobytes_of(info, "SwapTotal");
+  machine += isfinite(swap) ? swap : 0;
+  m.unused = kilobytes_of(info, "MemAvailable");
+  limit_by_groups(&m);
+#endif
+  limit(&m, machine, "the machine");
+  if (getrlimit(RLIMIT_AS, &r) == 0 && r.rlim_cur != RLIM_INFINITY)
+    limit(&m, (double)r.rlim_cur, "ulimit -v");
+  return m;
+}
+
+struct system_room system_room(int fd) {
+  struct system_room room = {INFINITY, NULL};
+  struct statvfs st;
+  struct rlimit r;
+  if (fstatvfs(fd, &st) == 0 && st.f_blocks > 0) {
+    room.bytes = (double)st.f_bavail * (double)st.f_frsize;
+    room.by = "its file system";
+  }
+  const off_t end = lseek(fd, 0, SEEK_CUR);
+  if (end >= 0 && getrlimit(RLIMIT_FSIZE, &r) == 0 &&
+      r.rlim_cur != RLIM_INFINITY &&
+      (double)r.rlim_cur - (double)end < room.bytes) {
+    room.bytes = fmax(0, (double)r.rlim_cur - (double)end);
+    room.by = "ulimit -f";
+  }
+  return room;
 }
 
 void system_build(char text[SYSTEM_BUILD_SIZE]) {

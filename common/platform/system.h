@@ -18,6 +18,24 @@ size_t system_thread(void);
    not tell. */
 long system_peak_memory(void);
 
+/* What the system lets this process have of memory (bytes), and what says so:
+   the least of ulimit -v, of the control groups that it is in, and of what the
+   machine has with its swap; and how much of it nobody uses now. Infinite where
+   the system does not tell. */
+struct system_memory {
+  double most, unused;
+  const char *by;
+};
+struct system_memory system_memory(void);
+
+/* How much an open file may grow (bytes), and what says so: its file system or
+   ulimit -f; infinite where the system does not tell. */
+struct system_room {
+  double bytes;
+  const char *by;
+};
+struct system_room system_room(int fd);
+
 /* Compiler, C library and GSL of this program, in one line. Other ones may
  * round otherwise. */
 enum { SYSTEM_BUILD_SIZE = 256 };

@@ -9,6 +9,7 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include "platform/system.h"
 #include "program/litter.h"
 #include "program/messages.h"
 
@@ -220,6 +221,21 @@ bool output_failed(struct output_file *f) {
   if (!f->error && ferror(f->stream))
     f->error = errno;
   return f->error != 0;
+}
+
+void output_need_room(FILE *stream, const char *name, double bytes) {
+  struct stat st;
+  const int fd = fileno(stream);
+  if (fstat(fd, &st) != 0 || !S_ISREG(st.st_mode))
+    return;
+  const struct system_room room = system_room(fd);
+  if (bytes <= room.bytes)
+    return;
+  char takes[SAY_BYTES_SIZE], has[SAY_BYTES_SIZE];
+  say_bytes(bytes, takes);
+  say_bytes(room.bytes, has);
+  die(EXIT_IO, "%s: takes %s, and %s has room for %s",
+      name ? name : "standard output", takes, room.by, has);
 }
 
 void output_commit(struct output_file *f) {

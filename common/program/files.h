@@ -38,6 +38,11 @@ void output_commit(struct output_file *f);
    called after each write. */
 bool output_failed(struct output_file *f);
 
+/* Exits with EXIT_IO where a file is to grow by more bytes than its file system
+   has left for us, or than ulimit -f lets it; before hours are spent on it.
+   Does nothing for what is no regular file. name: NULL for standard output. */
+void output_need_room(FILE *stream, const char *name, double bytes);
+
 /* Makes a folder for several files unless it exists; it is removed at the end
    if it is still empty. Exits likewise. */
 void output_folder(const char *path);

@@ -74,6 +74,16 @@ void die_status(int status, const char *format, ...) {
       gsl_strerror(status));
 }
 
+void say_bytes(double bytes, char text[SAY_BYTES_SIZE]) {
+  static const char *const units[] = {"bytes", "kB", "MB", "GB", "TB", "PB"};
+  size_t k = 0;
+  while (bytes >= 999.5 && k + 1 < sizeof units / sizeof *units) {
+    bytes /= 1000;
+    k++;
+  }
+  snprintf(text, SAY_BYTES_SIZE, "%.3g %s", bytes, units[k]);
+}
+
 void warn(const char *format, ...) {
   va_list args;
   va_start(args, format);

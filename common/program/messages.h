@@ -28,6 +28,10 @@ _Noreturn void die(enum exit_code code, const char *format, ...)
    format says comes before the reason. */
 _Noreturn void die_status(int status, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
+/* A number of bytes as people say it: 3.6 GB. */
+enum { SAY_BYTES_SIZE = 32 };
+void say_bytes(double bytes, char text[SAY_BYTES_SIZE]);
+
 /* The same as die without leaving. */
 void warn(const char *format, ...) __attribute__((format(printf, 1, 2)));
 

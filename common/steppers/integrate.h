@@ -51,6 +51,8 @@ struct integrate_method {
   bool adapts;    /* to stiffness: it has no limit of stability */
   bool half;      /* the derivative it hands on is that of the half step */
   bool opaque;    /* its memory cannot be stored */
+  size_t vectors; /* of the unknowns that a run has in memory, as measured for
+                     20,000 and more spheres; 0: not so many */
   /* Tells a new step of the problem, or NULL. */
   void (*prepare)(gsl_odeiv2_step *s, const struct integrate_problem *p);
   /* Its memory (platform/store.h); NULL: it has none, or it is opaque. */
