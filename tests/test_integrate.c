@@ -901,6 +901,24 @@ static void test_nowhere(void) {
         }
 }
 
+/* Each attempt is a quarter of the one before, until a step of it would be lost
+   in the rounding of t, or of 1 ms at the start. */
+static void test_attempts(void) {
+  const double starts[] = {0, 5};
+  for (size_t k = 0; k < 2; k++) {
+    struct bounded b = {1, 2, 0, 0, 0};
+    const struct integrate_problem p = {
+        .system = {bounded_f, bounded_jacobian, 1, &b}, .scale = ones};
+    struct integrate_options opt = options("merson");
+    opt.hinit = opt.hmax = 1;
+    struct integrator *it = start(&opt, &p, starts[k], (const double[]){0});
+    CHECK(integrate_step(it) == GSL_FAILURE);
+    const double least = 4 * DBL_EPSILON * fmax(starts[k], 1e-3);
+    CHECK((double)integrate_counts(it).rejected == ceil(-log2(least) / 2));
+    integrate_free(it);
+  }
+}
+
 /* A fixed step that ends outside is not shortened. */
 static void test_fixed_failure(void) {
   struct bounded b = {100, 1, -2, 3, 0};
@@ -1126,6 +1144,7 @@ int main(void) {
   test_region_avoided();
   test_region_entered();
   test_nowhere();
+  test_attempts();
   test_fixed_failure();
   test_fixed_refused();
   test_control_gives_up();

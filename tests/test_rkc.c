@@ -1088,6 +1088,57 @@ static void test_bed(void) {
   bed_free(&tight);
 }
 
+/* --- when the spectral radius is looked for --------------------------------*/
+
+/* Heat in a rod with insulated ends, whose modes decay at
+   2 - 2 cos(pi k/ROD): no mode at all where it is equally warm. */
+enum { ROD = 20 };
+
+static int heat(double t, const double y[], double dydt[], void *params) {
+  (void)t;
+  for (size_t i = 0; i < ROD; i++)
+    dydt[i] = (i ? y[i - 1] - y[i] : 0) + (i + 1 < ROD ? y[i + 1] - y[i] : 0);
+  return *(const bool *)params ? GSL_EBADFUNC : GSL_SUCCESS;
+}
+
+/* At the start, after a step that was rejected or failed, else not in each
+   step; and where f is 0, so that it shows no direction. */
+static void test_estimates(void) {
+  bool fails = false;
+  double direction[ROD], weight[ROD], y[ROD], error[ROD], f[ROD], next[ROD],
+      work[5 * ROD];
+  for (size_t i = 0; i < ROD; i++)
+    weight[i] = y[i] = 1;
+  const struct rkc_problem p = {.dim = ROD,
+                                .rates = heat,
+                                .params = &fails,
+                                .weight = weight,
+                                .threads = 1};
+  const struct {
+    double t;
+    bool fails, looks;
+  } tries[] = {{0, false, true},  {0, false, true},  {1, false, false},
+               {2, true, false},  {3, false, true},  {4, false, false},
+               {5, false, false}, {6, false, false}, {7, false, false},
+               {8, false, true}};
+  const double fastest = 2 + 2 * cos(M_PI / ROD);
+  struct rkc_step step;
+  CHECK(rkc_step_init(&step, direction) == GSL_SUCCESS);
+  size_t spent = 0;
+  for (size_t k = 0; k < COUNT(tries); k++) {
+    CHECK(heat(0, y, f, &(bool){false}) == GSL_SUCCESS);
+    fails = tries[k].fails;
+    CHECK(rkc_step_try(&step, &p, tries[k].t, 1, y, error, f, next, work) ==
+          (fails ? GSL_EBADFUNC : GSL_SUCCESS));
+    CHECK((step.report.power_evaluations > spent) == tries[k].looks);
+    spent = step.report.power_evaluations;
+    /* too large by a fifth, for safety */
+    CHECK(step.report.spectral_radius >= fastest &&
+          step.report.spectral_radius <= 1.2 * fastest);
+  }
+  rkc_step_free(&step);
+}
+
 int main(void) {
   gsl_set_error_handler_off();
   test_type();
@@ -1106,6 +1157,7 @@ int main(void) {
   test_repeated();
   test_constant();
   test_shared();
+  test_estimates();
   test_bed();
   return check_done();
 }
