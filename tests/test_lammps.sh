@@ -70,6 +70,16 @@ for ranks in 1 2; do
     <(without_places "$T/bed$ranks.tsv") <(without_places "$T/settle.tsv")
 done
 check 'pairs were listed anew' test "$(stat pair_list_builds "$T/s2")" -gt 5
+check 'near ones are chosen more often' test \
+  "$(stat near_list_builds "$T/s1")" -gt \
+  $((2 * $(stat pair_list_builds "$T/s1")))
+per_evaluation() { # FILE
+  awk -F '\t' '{ of[$1] = $2 }
+    END { print of["contact_evaluations"] / of["rhs_evaluations"] }' "$1"
+}
+within 'contacts of an evaluation by those of settle' "$(awk \
+  -v a="$(per_evaluation "$T/s1")" -v b="$(per_evaluation "$T/s0")" \
+  'BEGIN { print a / b }')" 0.8 1.1
 check 'spheres have partners on the other rank' test \
   "$(stat most_ghosts "$T/s2")" -gt 0
 check 'the result goes on' test "$("$B/settle" --quiet --scene "$T/bed2.tsv" \
