@@ -135,6 +135,33 @@ within 'spheres that went around' "$(awk '!/^[#i]/ { rows++
 check 'the obstacle stays' test "$(awk '$1 == "4" { print $2, $3, $4 }' \
   "$T/around.tsv")" = '0.31 0.31 0.1'
 
+# --- a bed meanwhile, and a run that is ended ---------------------------------
+ended() { # SIGNAL NAME COMMAND...: once there is a bed
+  rm -f "$T/part.tsv"
+  "${@:3}" --time 1e6 --output "$T/part.tsv" --every 0.01 "$T/scene" \
+    >"$T/out" 2>"$T/err" &
+  local pid=$! k
+  for ((k = 0; k < 1200; k++)); do
+    [[ ! -e $T/part.tsv ]] || break
+    sleep 0.05
+  done
+  check "$2: a bed meanwhile" test "$(tail -n 1 "$T/part.tsv" |
+    cut -c 1-25)" = '# status=interrupted at t'
+  kill "-$1" $pid
+  wait $pid
+  check "$2: exit status" test $? = 5
+  check "$2: says when" grep -q 'settle-lammps: interrupted at t=' "$T/err"
+  check "$2: the bed is of this time" test "$(tail -n 1 "$T/part.tsv" |
+    sed 's/# status=//')" = "$(sed -n 's/^settle-lammps: //p' "$T/err")"
+  check "$2: nothing else" test ! -s "$T/out" -a ! -e "$T/part.tsv.partial"
+}
+ended TERM 'one rank' "$B/settle-lammps"
+ended USR1 'two ranks' mpirun --allow-run-as-root --oversubscribe \
+  --mca mpi_yield_when_idle 1 -np 2 "$B/settle-lammps"
+"$B/settle" --quiet --scene "$T/part.tsv" --allow-partial --time 1e6 \
+  --export-lammps "$T/again" 2>"$T/err"
+check 'it goes on' test $? = 0
+
 # --- what goes wrong ----------------------------------------------------------
 wrong() { # STATUS PATTERN ARGUMENT...
   timeout 60 "$B/settle-lammps" "${@:3}" >"$T/out" 2>"$T/err" </dev/null
@@ -146,6 +173,9 @@ wrong() { # STATUS PATTERN ARGUMENT...
 wrong 2 'expected a folder'
 wrong 2 'nonsense: expected a value, or it is no option' --nonsense
 wrong 2 'time -1: expected a number above 0' --time -1 "$T/scene"
+wrong 2 'every: expected --output' --every 1 "$T/scene"
+wrong 1 'none/bed: it could not be written' --time 0.01 --output "$T/none/bed" \
+  "$T/scene"
 wrong 3 'no folder with in.scene' "$T"
 cp -r "$T/scene" "$T/broken"
 sed -i 's/^read_data.*/read_data none/' "$T/broken/in.scene"

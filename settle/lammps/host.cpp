@@ -6,6 +6,7 @@
    tests it. */
 #include <algorithm>
 #include <climits>
+#include <csignal>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -43,7 +44,7 @@ using LAMMPS_NS::bigint;
 using LAMMPS_NS::LAMMPS;
 using LAMMPS_NS::NeighList;
 
-enum { DONE, IO, USAGE, INPUT, INTEGRATION }; /* exit status */
+enum { DONE, IO, USAGE, INPUT, INTEGRATION, LIMIT }; /* exit status */
 
 enum { MOVING = 1, FIXED }; /* types of spheres in bed.data */
 
@@ -56,6 +57,19 @@ enum { NEAR_SERVES = 4 };
 static int rank;
 static bool finished; /* LAMMPS ends a process where it meets an error */
 static FILE *said;    /* what it says on other ranks than the first */
+static bool shown;    /* a line of progress is on the terminal */
+
+static volatile sig_atomic_t asked_to_end;
+
+static void end_soon(int) {
+  asked_to_end = 1;
+}
+
+static void clear_line() {
+  if (shown)
+    fputs("\r\033[K", stderr);
+  shown = false;
+}
 
 /* An error that one rank meets is in its own messages only. */
 static void tell_error() {
@@ -88,6 +102,7 @@ extern "C" int MPI_Abort(MPI_Comm world, int code) {
 /* The same on all ranks, which all come here. */
 [[noreturn]] static void die(int status, const std::string &message) {
   finished = true;
+  clear_line();
   if (rank == 0)
     fprintf(stderr, "settle-lammps: %s\n", message.c_str());
   MPI_Barrier(MPI_COMM_WORLD);
@@ -113,13 +128,26 @@ struct counts {
   double ghosts, contacts; /* summed over evaluations */
 };
 
+/* What is kept of a run, and shown of it. */
+struct keeping {
+  std::string output;     /* file for the bed; empty: standard output */
+  double every, last;     /* s between beds, 0: none; when the last one was */
+  double begun, progress; /* when the run began, when it was shown last (s) */
+  bool quiet;
+};
+
+/* What some rank wants after a step, the most urgent last. */
+enum { GO_ON, SAVE, END };
+
 class Bed {
 public:
-  Bed(LAMMPS *lammps, const plan &p);
+  Bed(LAMMPS *lammps, const plan &p, const keeping &k);
   ~Bed();
-  void integrate();
+  /* Whether it came to the end. */
+  bool integrate();
+  void save(const std::string &status);
+  std::string interrupted() const;
   void rates_at_start(const char *path, bool by_lammps);
-  void gather(FILE *out);
   void write_stats(const char *path, double wall_seconds, double cpu_seconds);
 
   double t;
@@ -128,6 +156,8 @@ public:
 private:
   LAMMPS *lammps;
   const plan &set;
+  keeping keep;
+  double wished; /* by the last accepted step */
   PairDem *pair;
   FixDemRows *carried;
   struct rows *rows;
@@ -168,6 +198,9 @@ private:
   void look_ahead(double most[3]) const;
   void largest(double values[], int n);
   bool attempt(double h, double *next);
+  double wish() const;
+  void show(double h);
+  void gather(FILE *out, const std::string &status);
   bool runs_away(double way, double h, double *next);
   std::vector<double> gathered(size_t width, const std::vector<double> &mine);
 
@@ -177,9 +210,10 @@ private:
   static double total(double part, void *bed);
 };
 
-Bed::Bed(LAMMPS *l, const plan &p)
-    : t(p.start), count(), lammps(l), set(p), rows(nullptr), scene(), stride(0),
-      step(), control(), near(0), apart(0), furthest2(0), ahead() {
+Bed::Bed(LAMMPS *l, const plan &p, const keeping &k)
+    : t(p.start), count(), lammps(l), set(p), keep(k), wished(GO_ON),
+      rows(nullptr), scene(), stride(0), step(), control(), near(0), apart(0),
+      furthest2(0), ahead() {
   lammps->input->one("fix dem_rows all dem/rows");
   lammps->input->one("run 0 post no");
   pair = dynamic_cast<PairDem *>(lammps->force->pair);
@@ -473,23 +507,53 @@ bool Bed::attempt(double h, double *next) {
     *next = h / 2;
     return false;
   }
-  double worst[5] = {0, furthest2}; /* one reduction for both */
+  double worst[6] = {0, furthest2}; /* one reduction for all */
   look_ahead(worst + 2);
+  worst[5] = wish();
   for (size_t i = 0; i < p.dim; i++) {
     const double e = std::fabs(error[i]) * weight[i] / set.tol;
     if (!(e <= worst[0]) && !std::isnan(worst[0]))
       worst[0] = e;
   }
-  largest(worst, 5);
+  largest(worst, 6);
   if (runs_away(std::sqrt(worst[1]), h, next))
     return false;
   if (!predictive_accepts(&control, worst[0], 2, next))
     return false;
   std::copy(worst + 2, worst + 5, ahead);
+  wished = worst[5];
   return true;
 }
 
-void Bed::integrate() {
+double Bed::wish() const {
+  if (asked_to_end)
+    return END;
+  return rank == 0 && keep.every > 0 && MPI_Wtime() - keep.last >= keep.every
+             ? SAVE
+             : GO_ON;
+}
+
+/* Once a second, on a terminal. */
+void Bed::show(double h) {
+  const double now = MPI_Wtime(),
+               share = (t - set.start) / (set.end - set.start);
+  if (keep.quiet || rank || now - keep.progress < 1)
+    return;
+  keep.progress = now;
+  shown = true;
+  fprintf(stderr,
+          "\r%3.0f %%  t=%.4g s  h=%.2g s  %zu evaluations  %.0f s left\033[K",
+          100 * share, t, h, count.evaluations,
+          (now - keep.begun) * (1 - share) / share);
+}
+
+std::string Bed::interrupted() const {
+  char text[64];
+  snprintf(text, sizeof text, "interrupted at t=%.6g", t);
+  return text;
+}
+
+bool Bed::integrate() {
   double next = set.hinit;
   rates(t, y.data(), f1.data(), this);
   look_ahead(ahead);
@@ -521,9 +585,44 @@ void Bed::integrate() {
       next = h;
     } else
       t = set.end;
+    show(done);
+    if (wished == END)
+      break;
+    if (wished == SAVE && t < set.end)
+      save(interrupted());
   }
+  clear_line();
+  return t == set.end;
+}
+
+/* The bed so far, at once under its name; the run may go on. */
+void Bed::save(const std::string &status) {
+  const std::string beside = keep.output + ".partial";
+  FILE *out = stdout;
+  int written = 1;
+  if (rank == 0 && !keep.output.empty())
+    out = fopen(beside.c_str(), "w");
   to_lammps(y.data());
   lammps->domain->pbc(); /* as settle writes its places */
+  if (rank == 0 && !out)
+    written = 0;
+  MPI_Bcast(&written, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  if (written)
+    gather(out, status);
+  if (rank == 0 && written) {
+    written = fflush(out) == 0 && !ferror(out);
+    if (!keep.output.empty())
+      written = fclose(out) == 0 && written &&
+                rename(beside.c_str(), keep.output.c_str()) == 0;
+  }
+  MPI_Bcast(&written, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  if (!written) {
+    if (rank == 0 && !keep.output.empty())
+      remove(beside.c_str());
+    die(IO, (keep.output.empty() ? "standard output" : keep.output) +
+                ": it could not be written");
+  }
+  keep.last = MPI_Wtime();
 }
 
 /* One number of width columns for each sphere of all ranks, at the root, by the
@@ -555,7 +654,7 @@ std::vector<double> Bed::gathered(size_t width,
 }
 
 /* The bed: the keys of start.tsv with the time that was reached. */
-void Bed::gather(FILE *out) {
+void Bed::gather(FILE *out, const std::string &status) {
   const Atom *a = lammps->atom;
   std::vector<double> mine;
   for (int i = 0; i < a->nlocal; i++) {
@@ -598,7 +697,7 @@ void Bed::gather(FILE *out) {
     sheet_text(&sheet, "\n");
   }
   sheet_end(&sheet);
-  fputs("# status=ok\n", out);
+  fprintf(out, "# status=%s\n", status.c_str());
 }
 
 /* id and rates of each sphere, for tests: by the kernel, or by the pair style
@@ -671,8 +770,11 @@ static const char help[] =
     "Options:\n"
     "  --time X           end of the run, s; else that of settle\n"
     "  --tol X            tolerance, m/s; else that of settle\n"
+    "  --output NAME      file for the bed, instead of standard output\n"
+    "  --every X          write the bed so far there every X s of the clock\n"
     "  --stats NAME       file for the solver's statistics; CPU time of a "
     "rank\n"
+    "  --quiet            no progress on a terminal\n"
     "  --script NAME      run this input of LAMMPS in the folder instead, "
     "such\n"
     "                     as in.run, the same bed by a fixed step\n"
@@ -682,12 +784,15 @@ static const char help[] =
     "  --version          name and version\n"
     "\n"
     "Exit status: 0 done, 1 input, output or LAMMPS failed, 2 a mistake in the "
-    "use,\n  3 bad input, 4 the integration failed.\n";
+    "use,\n  3 bad input, 4 the integration failed, 5 interrupted: by SIGINT, "
+    "SIGTERM\n"
+    "  or SIGUSR1, which mpirun hands on; the bed is that of this time then.\n";
 
 struct options {
   double time = NAN, tol = NAN;
-  std::string folder, script, rates, stats;
-  bool lammps = false;
+  double every = 0;
+  std::string folder, script, rates, stats, output;
+  bool lammps = false, quiet = false;
 };
 
 static double positive(const std::string &name, const std::string &word) {
@@ -717,8 +822,8 @@ static options parse(int argc, char **argv) {
       o.folder = word;
       continue;
     }
-    if (word == "--lammps") {
-      o.lammps = true;
+    if (word == "--lammps" || word == "--quiet") {
+      (word == "--lammps" ? o.lammps : o.quiet) = true;
       continue;
     }
     if (equals != std::string::npos) {
@@ -732,6 +837,10 @@ static options parse(int argc, char **argv) {
       o.time = positive(word, value);
     else if (word == "--tol")
       o.tol = positive(word, value);
+    else if (word == "--every")
+      o.every = positive(word, value);
+    else if (word == "--output")
+      o.output = value;
     else if (word == "--stats")
       o.stats = value;
     else if (word == "--script")
@@ -744,9 +853,11 @@ static options parse(int argc, char **argv) {
   if (o.folder.empty())
     die(USAGE, "expected a folder by settle --export-lammps (try "
                "'settle-lammps --help')");
+  if (o.every > 0 && o.output.empty())
+    die(USAGE, "--every: expected --output beside it");
   char *here = getcwd(nullptr, 0);
   for (std::string *path :
-       {&o.stats, &o.rates}) /* LAMMPS works in the folder */
+       {&o.stats, &o.rates, &o.output}) /* LAMMPS works in the folder */
     if (!path->empty() && (*path)[0] != '/')
       *path = std::string(here) + "/" + *path;
   free(here);
@@ -795,18 +906,23 @@ int main(int argc, char **argv) {
   lammps->input->file(o.script.empty() ? "in.scene" : o.script.c_str());
   if (o.script.empty()) {
     const plan p = plan_of(lammps, o);
-    Bed bed(lammps, p);
+    const double begun = MPI_Wtime();
+    Bed bed(lammps, p,
+            {o.output, o.every, begun, begun, begun, o.quiet || !isatty(2)});
     if (!o.rates.empty())
       bed.rates_at_start(o.rates.c_str(), o.lammps);
     else {
-      const double begun = MPI_Wtime();
+      for (int number : {SIGINT, SIGTERM, SIGUSR1})
+        signal(number, end_soon);
       const clock_t worked = clock();
-      bed.integrate();
+      const bool reached = bed.integrate();
       const double wall = MPI_Wtime() - begun;
       const double cpu = static_cast<double>(clock() - worked) / CLOCKS_PER_SEC;
-      bed.gather(stdout);
+      bed.save(reached ? "ok" : bed.interrupted());
       if (!o.stats.empty())
         bed.write_stats(o.stats.c_str(), wall, cpu);
+      if (!reached)
+        die(LIMIT, bed.interrupted());
     }
   }
   delete lammps;
