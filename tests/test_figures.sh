@@ -18,6 +18,8 @@ declare -A makes=(
   [softness]='hardness.svg budget.svg softness.md:8 softness-limits.md:2'
   [table-radius]='table-radius.md:8' [fig-walls]='walls.svg walls.md:10'
   [fig-tubes]='tubes.svg tubes.md:2'
+  [real-beds]='real.md:5'
+  [fig-hardening]='hardening.svg hardening.md:4'
   [fig-handover]='handover.svg' [fig-friction]='friction.svg'
   [fig-mixtures]='mixtures.svg mixtures.md:4'
   [precision]='precision-bounce-150-time-evaluations.svg

@@ -13,6 +13,7 @@
 # BASE   width of the box (m)
 # ROWS   what to run, a line for each: CODE CONTACT FRICTION K, or settle MODEL
 #        FRICTION - OPTION...
+# KEEP   folder for the beds, NUMBER-SEED.bed by the number of the row, from 1
 #
 # A code that is not installed is left out with a line on standard error.
 # A speed without its fraction means nothing: the laws differ. Here e = 0.4 and
@@ -26,6 +27,7 @@ STEP=${STEP:-1}
 T=${TIME:-8}
 COUNT=${COUNT:-200}
 BASE=${BASE:-1}
+KEEP=${KEEP:-}
 ROWS=${ROWS:-$(for code in lammps liggghts; do
   for case in 'hooke 0.2 1e4' 'hooke 0.2 1e5' 'hertz 0.2 1e5' 'hooke 0 1e4' \
     'hooke 0 1e5'; do
@@ -214,9 +216,11 @@ run_peer() {
   to_bed "$code" < "$tmp/end" > "$tmp/bed"
 }
 
-# The bed in $tmp/bed, checked: no sphere is lost, none outside the walls.
+# The bed in $tmp/bed of a seed, checked: no sphere is lost, none outside the
+# walls.
 measure() {
   local cpu n outside speed
+  [ -z "$KEEP" ] || cp "$tmp/bed" "$KEEP/$number-$1.bed"
   cpu=$(awk '{ print $1 + $2 }' "$tmp/cpu")
   "$bin/analyze" --box "0,$BASE,0,$BASE,0,1" "$tmp/bed" > "$tmp/fraction" ||
     return 1
@@ -272,7 +276,7 @@ peer_row() {
   write_law "$code" "$contact" "$mu" "$k" > "$tmp/steps"
   read -r dt steps < "$tmp/steps"
   for seed in $SEEDS; do
-    if ! run_peer "$code" "$program" "$seed" "$dt" "$steps" || ! measure; then
+    if ! run_peer "$code" "$program" "$seed" "$dt" "$steps" || ! measure "$seed"; then
       echo "peers.sh: $* seed $seed failed:" >&2
       cat "$tmp/errors" "$tmp/output" 2> /dev/null | grep -a ERROR >&2 || true
       failed=1
@@ -292,7 +296,7 @@ settle_row() {
     { time "$bin/settle" "${start[@]}" --model "$model" --seed "$seed" \
       --time "$T" --quiet --stats "$tmp/stats" "$@" > "$tmp/bed" \
       2> "$tmp/errors"; } 2> "$tmp/cpu" || { cat "$tmp/errors" >&2; exit 1; }
-    measure
+    measure "$seed"
   done
   steps=$(awk -F '\t' '$1 == "steps_accepted" { print $2 }' "$tmp/stats")
   method=$(awk -F '\t' '$1 == "method" { print $2 }' "$tmp/stats")
@@ -307,8 +311,10 @@ missing=
 printf '%s\t' code contact friction 'k (N/m)' 'step (s)' steps seeds \
   'CPU (s)' sum union 'standard error'
 printf '%s\t%s\n' 'largest speed (m/s)' 'contact evaluations'
+number=0
 while read -r code what; do
   : > "$tmp/runs"
+  number=$((number + 1))
   # shellcheck disable=SC2086 # words
   case $code in
     settle) settle_row $what ;;
