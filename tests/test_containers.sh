@@ -185,6 +185,10 @@ done
 check 'rest takes the union of all images' [ "$("$B/analyze" rest "$T/periodic.bed" |
   awk 'NR == 2 { print $6 }')" = "$("$B/analyze" "$T/periodic.bed" |
   awk 'NR == 2 { print $3 }')" ]
+"$B/analyze" mixture --classes 0.05,0.2 "$T/periodic.bed" > "$T/tsv"
+within 'classes add up to the fraction of all images' "$(awk \
+  -v f="$("$B/analyze" "$T/periodic.bed" | awk 'NR == 2 { print $2 }')" '
+  NR > 1 { s += $7 } END { print s / f - 1 }' "$T/tsv")" -1e-12 1e-12
 # fcc without side walls: every sphere within the lattice has 12 neighbours
 awk 'BEGIN { a = 0.2 * sqrt(2)
   printf "# format=bed-1\n# base=%.17g,%.17g\n# periodic=x y\n", 3 * a, 3 * a
