@@ -129,6 +129,22 @@ for p in settle analyze; do
   partial cut 5 'cut short: 1 spheres of the last frame, t=0, were read'
   partial midcut 6 'cut short: 1 spheres of the last frame, t=0, were read'
 done
+# The centre that is outside is named, wherever it is in the file.
+bed "$T/second" "$floor" '0\t0.5\t0.5\t0.5\t0.1\n7\t1\t2\t-3\t0.1\n' "$ok"
+refuse 'a centre outside' 3 \
+  "$T/second: sphere 7 at \(1, 2, -3\) has its centre outside wall 1" \
+  settle --scene "$T/second"
+# The file's method has the file's tolerance, one that is given has its own.
+bed "$T/tolerance" "# method=merson\n# tol=1e-3\n$floor" \
+  '0\t0.5\t0.5\t0.5\t0.1\n' "$ok"
+run settle --scene "$T/tolerance" --time 0
+check "the file's tolerance" grep -qx '# tol=0.001' "$T/out"
+for method in merson rkc; do
+  "$B/settle" --count 1 --time 0 --method $method >"$T/own"
+  run settle --scene "$T/tolerance" --time 0 --method $method
+  check "the tolerance of $method" cmp -s <(grep '^# tol=' "$T/own") \
+    <(grep '^# tol=' "$T/out")
+done
 # A cut frame is no start: the last whole one is.
 "$B/settle" --quiet --count 20 --base 0.4,0.4 --time 0.2 --frames 3 >"$T/frames"
 whole=$(wc -c <"$T/frames") third=$(grep -n '^# t=0.2' "$T/frames" | cut -d: -f 1)
@@ -651,6 +667,11 @@ check '--until-rest: before the end' eval \
   'is_close "$(stat t_end)" 7 1 && [[ $(key t "$T/out") == $(stat t_end) ]]'
 check '--until-rest: at rest' is_close "$(value 1 vz "$T/out")" 0 0.01
 check '--until-rest: a whole bed' test "$(key status "$T/out")" = ok
+# for 5 s from where the run begins, not from 0
+bed "$T/rests" "# model=basic\n$floor" '0\t0.5\t0.5\t0.0965\t0.1\n' "$ok"
+sed -i 's/^# t=0/# t=7/' "$T/rests"
+run settle --scene "$T/rests" --until-rest --time 100 --stats "$T/files/stats"
+check '--until-rest: a later start' is_close "$(stat t_end)" 12.5 0.5
 run settle --count 1 --time 0.2 --until-rest
 check '--until-rest, not reached: exit status' test $status = 5
 check '--until-rest, not reached: message' one_line settle \

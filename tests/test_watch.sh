@@ -93,6 +93,12 @@ silent
 run settle "${narrow[@]}" --model basic --restitution 0 --tol 1e-6 --time 0.6
 silent
 key surveys 'x > 30'
+# one that hardly moves is looked at every 300 evaluations, here one per step
+printf '# format=bed-1\n# t=0\n# wall=0 0 0 0 0 -1\nx\ty\tz\tr\n%s\n# status=ok\n' \
+  $'0.5\t0.5\t0.0965\t0.1' >"$T/rests"
+run settle --scene "$T/rests" --model basic --method verlet --step 1e-3 --time 3
+silent
+key surveys 'x >= 10 && x <= 12'
 key energy_gain 'x < 1e-3'
 run settle "${narrow[@]}" --model basic --restitution 1 --kappa 60 --time 0.6 \
   --method dopri5 --control standard --tol 1e-5
