@@ -3,6 +3,7 @@
 # What does not fit into memory or on the disk is said before the work, and memory
 # that fails in the middle of it ends a program with exit status 1 and no numbers.
 . tests/harness.sh
+. tests/faults.sh
 
 "$B/settle" --quiet --count 40 --base 0.5,0.5 --time 0.5 --frames 2 >"$T/bed"
 
@@ -46,4 +47,13 @@ palabos --cells 10
 END
 check 'a pipe has room' [ "$("$B/analyze" export --quiet --format raw --binary \
   --cells 20 "$T/bed" | wc -c)" = 8000 ]
+# --- memory that fails in the middle --------------------------------------------
+if make_faults; then
+  from=1 tried=0 wrong=0
+  for verb in fraction rest 'radius --report' gr 'export --format raw --cells 4'; do
+    fail_memory "$verb" "$T/bed" $from 29
+    from=$((from + 5))
+  done
+  check "memory that fails: $wrong of $tried are wrong" [ $wrong = 0 -a $tried -gt 40 ]
+fi
 check_done

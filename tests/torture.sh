@@ -8,6 +8,7 @@
 [[ ! -w /dev/shm ]] || export TMPDIR=/dev/shm # where fsync is fast
 . tests/harness.sh
 . tests/checkpoints.sh # resume may have arguments, or none
+. tests/faults.sh
 instants=${1:-200}
 RANDOM=${2:-1}
 D=$T/d
@@ -97,9 +98,7 @@ survives() { # FAULT PATTERN: of what it says
 }
 
 # --- calls that fail ------------------------------------------------------------
-if ! ${CC:-cc} -shared -fPIC -o "$T/faults.so" tests/faults.c -ldl 2>"$T/err"; then
-  echo 'skipped: calls that fail, which need a compiler and a loader that preloads'
-else
+if make_faults; then
   # Each call in turn
   failing() { # CALL MOST EVERY ARGUMENT...
     local call=$1 most=$2 every=$3 k
@@ -124,6 +123,13 @@ else
   failing close 60 0.001 "${short[@]}"
   failing malloc 2000 1000 "${short[@]}"
   failing malloc 2000 1000 --count 30 --base 0.4,0.4 --time 0.1
+  "$B/settle" --quiet --count 12 --base 0.4,0.4 --time 1.5 --frames 2 >"$T/bed"
+  for verb in fraction rest 'radius --report' radius gr order profile contacts mixture \
+    'contacts --network' 'order --spheres' 'export --format csv' \
+    'export --format raw --cells 4' 'export --format stl --merged --cells 6'; do
+    fail_memory "$verb" "$T/bed" 1 1
+  done
+  row 'malloc fails, analyze'
 fi
 
 # --- files that may not grow: short writes and a full disk -------------------------
