@@ -17,7 +17,7 @@ declare -A makes=(
   [fig-gr]='gr.svg' [structure]='structure.md:2'
   [softness]='hardness.svg budget.svg softness.md:8 softness-limits.md:2'
   [table-radius]='table-radius.md:8' [fig-walls]='walls.svg walls.md:10'
-  [fig-tubes]='tubes.svg tubes.md:2'
+  [fig-tubes]='tubes.svg tubes.md:2' [fig-bulk]='bulk.svg bulk.md:2'
   [real-beds]='real.md:5'
   [fig-hardening]='hardening.svg hardening.md:4'
   [fig-handover]='handover.svg' [fig-friction]='friction.svg'
