@@ -144,8 +144,8 @@ torture: all ## kill runs and go on, let each call fail, INSTANTS=200 (an hour)
 	B=$(B) tests/torture.sh $(INSTANTS)
 
 MUTANTS ?= 300
-mutants: all ## break the sources at MUTANTS=300 places, and see the tests notice
-	tests/mutants.sh $(MUTANTS)
+mutants: ## break the sources at MUTANTS=300 places, and see the tests notice (hours)
+	B=$(B) tests/mutants.sh $(MUTANTS)
 
 fuzz: $(B)/fuzz/readers ## feed random files to the readers, FUZZ_SECONDS=60 (clang)
 	@mkdir -p $(B)/fuzz/corpus

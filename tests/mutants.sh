@@ -1,150 +1,391 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Breaks the sources at random places, one at a time, and looks whether a test
-# notices: those that the header of the broken file names ("Tested in"), and that
-# of its own name. A mutant that no test kills is printed with its place; those of
+# Breaks the sources at one place at a time, and looks whether a test notices. Such
+# a broken source is a mutant, and a mutant that no test kills shows what is not
+# tested. Prints a line for each, then how many were killed, and the survivors.
+#
+#   tests/mutants.sh [NUMBER [SEED [FILE...]]]
+#
+# JOBS=1    so many at a time, each in a tree of its own
+# MOST=60   seconds of tests for a mutant; what has survived them counts as survived
+# TESTS=... names of those to use, all if there are none
+# B=build   where results are kept (B/mutants): when started again it goes on. A
+#           killed mutant is tried again when its file has changed, a survivor when
+#           any file or test has
+#
+# Mutants are spread over files by their length and over kinds: comparisons shifted
+# by the case of equality, conditions negated, && and ||, + - * /, constants, true,
+# false and the like, statements left out; not how much memory there is and what
+# frees it, which is for the sanitizers. Which ones depends on SEED and on the text
+# of the lines alone, so that more of them (NUMBER) are those and others.
+#
+# What is tried on a mutant are the tests that run its line, as gcov has seen once
+# (B/mutants/cover; remove it to have it seen anew, minutes): first the tests that
+# the header of its file names, then the quickest. A test fails also by using ten
+# times its own time. Equal machine code is no mutant ("void"); those of
 # tests/mutants.equivalent change nothing that can be seen, and it says why.
 #
-#   tests/mutants.sh [NUMBER [SEED [FILE...]]]      JOBS=1 at a time
-#
-# Works in copies of the tree, so several may run side by side. A broken program may
-# write where it should not: not as root, since that includes devices.
+# A broken program may write where it should not: it runs in a scratch copy, with
+# limits, and never as root, since that would include devices.
 set -u -o pipefail
-export LC_ALL=C.UTF-8
+export LC_ALL=C.UTF-8 OMP_WAIT_POLICY=passive
+unset MAKEFLAGS MFLAGS MAKELEVEL # of the make that has started this
 number=${1:-300} seed=${2:-1}
-jobs=${JOBS:-1}
+jobs=${JOBS:-1} most=${MOST:-60}
+safely=()
 if ((EUID == 0)); then
   command -v setpriv >/dev/null || {
     echo 'mutants: expected another user than root, or setpriv (util-linux)' >&2
     exit 2
   }
   safely=(setpriv --reuid=65534 --regid=65534 --clear-groups)
-else
-  safely=()
 fi
+mkdir -p "${B:-build}/mutants/cover" || exit 1
+W=$(cd "${B:-build}/mutants" && pwd)
 T=$(mktemp -d) || exit 1
-trap 'rm -rf "$T"' EXIT
+trap 'kill $(jobs -p) 2>/dev/null; wait; rm -rf --one-file-system "$T"' EXIT
+trap 'exit 1' HUP INT TERM
+chmod 755 "$T"
 files=("${@:3}")
-[[ ${#files[@]} -gt 0 ]] || mapfile -t files < <(ls common/*/*.c settle/*.c analyze/*.c)
+[[ ${#files[@]} -gt 0 ]] || files=({common/*,settle,analyze}/*.[ch])
+make=(make -s WARNINGS=-w CC="$(command -v ccache) ${CC:-gcc}" B=build)
+programs=(all build/precision build/stability)
+whole=(CFLAGS=-O2)
+seen=(CFLAGS='-O1 --coverage')
 
-# Every place that can be broken: FILE, line, text that takes its place
+# Every place that can be broken: KIND, FILE, line number, line, what takes its place
 candidates() { # FILE...
   awk -v OFS='\t' '
-    function mutate(from, to,   at, rest, begin) {
-      begin = 1
-      while ((at = index(substr(text, begin), from)) > 0) {
+    function trimmed(s) {
+      gsub(/^ +| +$/, "", s)
+      return s
+    }
+    function give(kind, new) {
+      if (!given[FILENAME, text, new]++)
+        print kind, FILENAME, FNR, trimmed(text), new
+    }
+    function put(at, length_, to) {
+      return substr(text, 1, at - 1) to substr(text, at + length_)
+    }
+    function mutate(kind, from, to,   at, begin) {
+      for (begin = 1; (at = index(substr(code, begin), from)) > 0;
+           begin += length(from)) {
         begin += at - 1
-        print FILENAME, FNR, substr(text, 1, begin - 1) to \
-          substr(text, begin + length(from))
-        begin += length(from)
+        if (from != " !" || substr(code, begin, 3) != " !=")
+          give(kind, put(begin, length(from), to))
       }
     }
-    FNR == 1 {comment = 0}
+    function either(kind, a, b) {
+      mutate(kind, a, b)
+      mutate(kind, b, a)
+    }
+    function blank(from, n,   s) { # what is no code
+      s = sprintf("%" n "s", "")
+      gsub(/ /, "\001", s)
+      code = substr(code, 1, from - 1) s substr(code, from + n)
+    }
+    function constants(   at, begin, c) {
+      for (begin = 1; match(substr(code, begin),
+           /[^A-Za-z0-9_.][0-9]+(\.[0-9]*)?(e[-+]?[0-9]+)?[^A-Za-z0-9_.]/);
+           begin = at + RLENGTH - 2) {
+        at = begin + RSTART
+        c = substr(text, at, RLENGTH - 2)
+        if (substr(code, at - 1, RLENGTH) ~ /\{0\}/)
+          continue
+        if (c ~ /e/)
+          give("constant", put(at, length(c), c ~ /e-/ ? "1e3 * " c : "1e-3 * " c))
+        else if (c ~ /\./)
+          give("constant", put(at, length(c), "1.5 * " c))
+        else
+          give("constant", put(at, length(c), c + 1))
+      }
+    }
+    FNR == 1 {comment = 0; before = ";"}
+    /\t/ {next}
     {
-      text = $0
-      if (comment || /\/\*/) {
-        comment = !/\*\//
-        if (!/^[^\/]*;.*\/\*.*\*\/ *$/)
+      text = code = $0
+      if (comment) {
+        if (!/\*\//)
           next
+        blank(1, index(code, "*/") + 1)
+        comment = 0
+      }
+      while (match(code, /"([^"\\]|\\.)*"|\047[^\047]+\047|\/\*([^*]|\*[^\/])*\*\//))
+        blank(RSTART, RLENGTH)
+      if ((at = index(code, "/*")) > 0) {
+        comment = 1
+        blank(at, length(code) - at + 1)
+      }
+      bare = code
+      gsub(/\001/, "", bare)
+      bare = trimmed(bare)
+      if (bare == "")
+        next
+    }
+    {last = before; before = bare}
+    /^ *#/ || /\\$/ || code ~ /assert/ {next}
+    /^(static )?(const|enum)/ {constants(); next}
+    /^[^ ]/ {next}
+    {
+      either("boundary", " < ", " <= ")
+      either("boundary", " > ", " >= ")
+      either("logic", " && ", " || ")
+      either("logic", " == ", " != ")
+      either("logic", "true", "false")
+      mutate("logic", "(!", "(")
+      mutate("logic", " !", " ")
+      either("arithmetic", " += ", " -= ")
+      mutate("arithmetic", "++;", "--;")
+      # how much memory is for the sanitizers
+      if (bare !~ /sizeof|alloc|^[a-z_0-9 ]+ [^=(]*;$|^(const )?[a-z_0-9]+ [^=(]*[,)]$/) {
+        either("arithmetic", " + ", " - ")
+        either("arithmetic", " * ", " / ")
+        either("arithmetic", "GSL_MAX(", "GSL_MIN(")
+        either("arithmetic", "fmax(", "fmin(")
+        constants()
+      }
+      s = bare
+      if (match(bare, /(if|while) \(/) && bare ~ /\)( \{)?$/ && \
+          gsub(/\(/, "(", s) == gsub(/\)/, ")", s)) {
+        at = index(text, "(")
+        s = bare ~ /\{$/ ? " {" : ""
+        give("negated", substr(text, 1, at) "!" substr(text, at, \
+          length(trimmed2(text)) - at + 1 - length(s)) ")" s)
       }
     }
-    /^[ ]*[#*]/ || /"/ || /^[^ ]/ || /assert/ || /\t/ {next}
-    {
-      mutate(" < ", " <= "); mutate(" <= ", " < ")
-      mutate(" > ", " >= "); mutate(" >= ", " > ")
-      mutate(" == ", " != "); mutate(" != ", " == ")
-      mutate(" && ", " || "); mutate(" || ", " && ")
-      mutate(" + ", " - "); mutate(" - ", " + ")
-      mutate(" * ", " / "); mutate(" / ", " * ")
-      mutate(" += ", " -= "); mutate(" -= ", " += ")
-      mutate("GSL_MAX(", "GSL_MIN("); mutate("GSL_MIN(", "GSL_MAX(")
-      mutate("true", "false"); mutate("false", "true")
-      mutate("(!", "("); mutate("++;", "--;")
-      mutate(" 0;", " 1;"); mutate(" 1;", " 0;"); mutate("0.5 ", "0.6 ")
+    last ~ /[;{})]$|^else$|:$/ && bare !~ /free\(|close\(|va_end\(|^\(void\)/ &&
+      (bare ~ /^[a-z*][a-zA-Z_0-9>.\[\]*+ -]*( [-+*\/|&]?= .*|\(.*\)|\+\+|--);$/ ||
+       bare ~ /^(break|continue);$/) && bare !~ /^[a-z][A-Za-z_0-9]* \**[a-z(]/ {
+      give("deleted", "  ; /* nothing */")
     }
-    /^ +[a-z][a-zA-Z_0-9>.\[\]-]*(\(.*\)| [-+*]?= .*);$/ &&
-      !/^ +(return|const|double|size_t|int|struct|static|free|char|bool)/ {
-      print FILENAME, FNR, "  ; /* nothing */"
+    function trimmed2(s) {
+      sub(/ +(\/\*.*)?$/, "", s)
+      return s
     }' "$@"
 }
 
-# The tests of a source
-tests_of() { # FILE
-  local name header
+# NUMBER of them, spread over files by their length and over kinds: FILE, line
+# number, line, what takes its place
+choose() {
+  candidates "${files[@]}" | sort -R --random-source=<(yes "$seed") |
+    awk -F '\t' -v OFS='\t' '{print n[$2, $1]++, $0}' | sort -s -n -k 1,1 |
+    awk -F '\t' -v OFS='\t' -v number="$number" '
+      {row[NR] = $3 OFS $4 OFS $5 OFS $6; file[NR] = $3; n[$3]++}
+      END {
+        for (i = 1; i <= NR; i++) # the first of each file come first
+          print (at[file[i]]++ + 0.5) / n[file[i]], row[i]
+      }' | sort -s -g -k 1,1 | head -n "$number" | cut -f 2-
+}
+
+tests_of() { # FILE: what its header names, and what has its name
+  local name
   name=$(basename "${1%.*}")
-  header=${1%.c}.h
   {
-    cat "$1" "$header" 2>/dev/null | tr '\n' ' ' |
+    cat "$1" "${1%.c}.h" 2>/dev/null | tr '\n' ' ' |
       grep -oE 'tests/test_[a-z_0-9]+\.(c|sh)'
     ls "tests/test_$name.c" "tests/test_$name.sh" 2>/dev/null
-    [[ $1 != analyze/* ]] || echo tests/test_cli.sh
-    [[ $1 != settle/* ]] || printf '%s\n' tests/test_cli.sh tests/test_watch.sh
-  } | sort -u | while read -r test; do
-    [[ ! -e $test ]] || echo "$test"
+  } | xargs -r -n 1 basename | sort -u
+}
+
+tests_for() { # FILE LINE: what runs it, else what runs its file; the best first
+  tests_of "$1" | awk -F '\t' -v OFS='\t' '
+    FILENAME == "-" {own[$1] = 1; next}
+    FILENAME == ARGV[2] {time[$1] = $2; next}
+    $1 in time {print !own[$1], time[$1], $1}' - "$W/times" <(
+      cd "$W/cover" && { grep -lxF -- "$1"$'\t'"$2" * || grep -lF -- "$1"$'\t' *; }
+    ) | sort -k 1,1n -k 2,2g
+}
+
+run_test() { # TEST SECONDS DIRECTORY: whether it passes; the directory is for its files
+  local limit command=("build/tests/${1%.c}")
+  [[ $1 == *.c ]] || command=(bash "tests/$1")
+  limit=$(awk -v s="$2" 'BEGIN {print int(10 * s) + 10}')
+  rm -rf --one-file-system "$3"
+  mkdir "$3"
+  ((EUID != 0)) || chown 65534:65534 "$3"
+  ( # time of the processor; on the clock only for what waits forever
+    ulimit -c 0 -f 1000000 -v 4000000 -t "$limit"
+    B=build HOME=$3 TMPDIR=$3 timeout -s KILL $((10 * limit + 100)) "${safely[@]}" \
+      "${command[@]}"
+  ) >"$3.log" 2>&1 </dev/null
+}
+
+tree() { # NAME FLAGS...: a copy of the sources, with the programs
+  mkdir "$T/$1"
+  tar -c --exclude='./build*' --exclude=.git . | tar -x -C "$T/$1"
+  cd "$T/$1" && "${make[@]}" "${@:2}" "${programs[@]}" >/dev/null
+}
+
+# Which lines each test runs, and how long it takes. Those that run whole studies,
+# or build elsewhere, are left out.
+look() {
+  local test TIMEFORMAT='%U %S'
+  echo 'mutants: which test runs which line; once, minutes' >&2
+  tree seen "${seen[@]}" || return
+  rm -f "$W"/cover/*
+  export GCOV_PREFIX=$T/gcda
+  for test in ${TESTS:-$(cd tests && ls test_*.c test_*.sh)}; do
+    case $test in
+      test_figures.sh | test_settling.sh | test_builds.sh | test_make.sh | \
+        test_harness.sh | test_rooms.sh) continue ;;
+      *.c) "${make[@]}" "${seen[@]}" "build/tests/${test%.c}" >/dev/null || return ;;
+    esac
+    mkdir -m 777 "$GCOV_PREFIX"
+    if { time run_test "$test" 100 "$T/look"; } 2>"$T/took"; then
+      lines "$GCOV_PREFIX$PWD" >"$W/cover/$test"
+      awk -v OFS='\t' -v test="$test" '{print test, $1 + $2}' "$T/took"
+    else
+      echo "mutants: not used, as it fails on the whole sources: $test" >&2
+      tail -n 3 "$T/look.log" >&2
+    fi
+    rm -rf --one-file-system "$GCOV_PREFIX"
+  done >"$T/times"
+  unset GCOV_PREFIX
+  mv "$T/times" "$W/times"
+}
+
+lines() { # DIRECTORY of what gcov wrote: FILE, line, of those that were run
+  local data
+  while read -r data; do
+    cp "${data%.gcda}.gcno" "$1/${data%.gcda}.gcno"
+    echo "$1/$data"
+  done < <(cd "$1" 2>/dev/null && find . -name '*.gcda') >"$T/data"
+  [[ -s $T/data ]] || return 0 # runs nothing of ours
+  xargs gcov -t <"$T/data" 2>/dev/null | awk -v OFS='\t' '
+    /^ *-: +0:/ {
+      if (sub(/^ *-: +0:Source:/, "")) {
+        file = $0
+        run = 0
+      }
+      next
+    }
+    match($0, /^ *[^:]+: *[0-9]+:/) { # the rest of a statement has no count
+      count = $1
+      text = substr($0, RLENGTH + 1)
+      gsub(/^ +| +$/, "", text)
+      if (count !~ /^-/)
+        run = count ~ /^[0-9]/
+      if (run && text != "" && file ~ /^[a-z]/)
+        print file, text
+    }' | sort -u
+}
+
+judge() { # FILE LINE-NUMBER LINE NEW: sets verdict and by, in the tree where we are
+  local file=$1 object=build/obj/${1%.?} sum=0 first=libdem.a test time targets
+  [[ $file == common/* ]] || first=${file%%/*}
+  cp -p "$file" "$T/$tree.whole"
+  NEW=$4 awk -v n="$2" 'NR == n {print ENVIRON["NEW"]; next} {print}' \
+    "$T/$tree.whole" >"$file"
+  verdict=survived by=
+  if ! "${make[@]}" "${whole[@]}" "build/$first" >/dev/null 2>&1; then
+    verdict=void by='does not compile'
+  elif [[ $file == *.c ]] && same "$object"*.o; then
+    verdict=void by='the same machine code'
+  else
+    while IFS=$'\t' read -r _ time test; do
+      sum=$(awk -v a="$sum" -v b="$time" 'BEGIN {print a + b}')
+      if awk -v s="$sum" -v most="$most" 'BEGIN {exit !(s > most)}'; then
+        by+=' ...'
+        break
+      fi
+      targets=("${programs[@]}")
+      [[ $test != *.c ]] || targets=("build/tests/${test%.c}")
+      if ! "${make[@]}" "${whole[@]}" "${targets[@]}" >/dev/null 2>&1; then
+        echo "mutants: cannot be built: ${targets[*]}" >&2
+      elif run_test "$test" "$time" "$T/$tree.run"; then
+        by+=" $test"
+      else
+        verdict=killed by=$test
+        break
+      fi
+    done < <(tests_for "$file" "$3")
+    by=${by# }
+    [[ $by ]] || by='no test runs it'
+  fi
+  [[ $verdict != survived ]] ||
+    ! cut -f -3 tests/mutants.equivalent |
+      grep -qxF "$file"$'\t'"$3"$'\t'"$(trimmed "$4")" || verdict=equivalent
+  cp -p "$T/$tree.whole" "$file"
+  cp -r build/whole/. build/obj/
+  [[ $file == *.c ]] || rm -rf build/obj/tests # which may have had the header
+}
+
+same() { # OBJECT...: whether all are those of the whole source
+  local object
+  for object in "$@"; do
+    cmp -s "$object" "build/whole/${object#build/obj/}" || return
   done
 }
 
-run_test() { # FILE of a test: its status
-  if [[ $1 == *.c ]]; then
-    make -s "build/${1%.c}" >/dev/null 2>&1 || return 0 # cannot be built: no verdict
-    timeout 300 "${safely[@]}" "build/${1%.c}" >/dev/null 2>&1
-  else
-    B=build timeout 600 "${safely[@]}" bash "$1" >/dev/null 2>&1
+trimmed() {
+  sed 's/^ *//; s/ *$//' <<<"$1"
+}
+
+work() { # TREE: every jobs-th of those that are left
+  local tree=$1 k=0 file line old new verdict by state
+  tree "$tree" "${whole[@]}" && cp -r build/obj build/whole || return
+  while IFS=$'\t' read -r file line old new; do
+    ((k++ % jobs == tree)) || continue
+    judge "$file" "$line" "$old" "$new"
+    state=$(cksum <"$file")
+    [[ $verdict != survived ]] || state+=" $tests"
+    row "$verdict" "$file:$line" "$old" '->' "$(trimmed "$new")" "$by"
+    row "$state" "$file" "$old" "$new" "$verdict" "$by" >>"$W/verdicts"
+  done <"$T/left"
+}
+
+row() { # FIELD...
+  local IFS=$'\t'
+  echo "$*"
+}
+
+# The chosen ones with their verdict, if they have one for these sources and tests:
+# VERDICT (or left), FILE, line number, line, NEW, by
+judged() {
+  awk -F '\t' -v OFS='\t' -v tests="$tests" '
+    FILENAME == ARGV[1] {sum[$1] = $2; next}
+    FILENAME == ARGV[2] {
+      if ($1 == sum[$2] || $1 == sum[$2] " " tests) {
+        verdict[$2, $3, $4] = $5
+        by[$2, $3, $4] = $6
+      }
+      next
+    }
+    {
+      known = ($1, $3, $4) in verdict
+      print known ? verdict[$1, $3, $4] : "left", $0, known ? by[$1, $3, $4] : ""
+    }' <(
+    for file in "${files[@]}"; do
+      row "$file" "$(cksum <"$file")"
+    done
+  ) "$W/verdicts" "$T/mutants"
+}
+
+touch "$W/verdicts"
+tests=$(cat tests/* 2>/dev/null | cksum)
+choose >"$T/mutants"
+judged | awk -F '\t' '$1 == "left"' | cut -f 2-5 >"$T/left"
+if [[ -s $T/left ]]; then
+  if [[ ! -s $W/times ]]; then # behind, so that a signal need not wait for it
+    (look) &
+    wait $! || exit 1
   fi
-}
-
-judge() { # FILE LINE TEXT: killed, survived, equivalent or void
-  local file=$1 line=$2 text=$3 test passed=0
-  cp "$file" "$file.whole"
-  TEXT=$text awk -v n="$line" 'NR == n {print ENVIRON["TEXT"]; next} {print}' \
-    "$file.whole" >"$file"
-  if make -s all >/dev/null 2>&1; then
-    verdict=survived
-    while read -r test; do
-      if ! run_test "$test"; then
-        verdict="killed by $test"
-        break
-      fi
-      passed=$((passed + 1))
-    done < <(tests_of "$file")
-    ((passed > 0)) || [[ $verdict != survived ]] || verdict='void: no test'
-  else
-    verdict='void: does not compile'
-  fi
-  [[ $verdict != survived ]] || ! grep -qF "$file"$'\t'"$text"$'\t' \
-    tests/mutants.equivalent || verdict=equivalent
-  mv "$file.whole" "$file"
-}
-
-work() { # JOB: every jobs-th of the mutants
-  local k=0 file line text verdict
-  cd "$T/$1" || exit 1
-  while IFS=$'\t' read -r _ file line text; do
-    ((k++ % jobs == $1)) || continue
-    judge "$file" "$line" "$text"
-    printf '%s\t%s:%s\t%s\t%s\n' "${verdict%% *}" "$file" "$line" "$text" \
-      "$verdict" | tee -a "$T/verdicts"
-  done <"$T/mutants"
-}
-
-candidates "${files[@]}" | awk -v seed="$seed" 'BEGIN {srand(seed)}
-  {printf "%.9f\t%s\n", rand(), $0}' | sort -k 1,1 | head -n "$number" >"$T/mutants"
-chmod 755 "$T"
-for ((j = 0; j < jobs; j++)); do
-  mkdir "$T/$j"
-  tar -c --exclude=./build --exclude=.git . | tar -x -C "$T/$j"
-  make -s -C "$T/$j" all >/dev/null || exit 1
-  ((EUID != 0)) || chown -R 65534:65534 "$T/$j"
-done
-for ((j = 0; j < jobs; j++)); do
-  work $j &
-done
-wait
+  for ((j = 0; j < jobs; j++)); do
+    (work $j) &
+  done
+  wait
+fi
+judged >"$T/judged"
+echo
+awk -F '\t' '$1 == "survived" {print $1 ": " $2 ":" $3 ": " $4 " -> " $5}' "$T/judged"
 awk -F '\t' '{n[$1]++} END {
   tried = n["killed"] + n["survived"]
   printf "%d killed, %d survived, %d argued equivalent, %d void\n", n["killed"],
-    n["survived"], n["equivalent"], n["void:"]
+    n["survived"], n["equivalent"], n["void"]
+  if (n["left"])
+    printf "%d not tried\n", n["left"]
   if (tried)
-    printf "%.0f %% of those that are not argued equivalent\n",
+    printf "%.1f %% of those that are not argued equivalent are killed\n",
       100 * n["killed"] / tried
-}' "$T/verdicts"
+  exit n["left"] > 0
+}' "$T/judged"
