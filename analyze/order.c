@@ -32,7 +32,7 @@ static void print_spheres(struct table *table, struct frames *f,
   for (size_t i = 0; i < b->n; i++) {
     const double *x = b->x + 3 * i;
     frames_tell(f, 0.7 + 0.3 * (double)i / (double)b->n);
-    if (!region_holds(region, x))
+    if (bed_is_fixed(b, i) || !region_holds(region, x))
       continue;
     const double numbers[] = {o[i].q4,    o[i].q6,    o[i].qbar4,
                               o[i].qbar6, o[i].wbar4, o[i].wbar6};
@@ -57,7 +57,7 @@ static void print_row(struct table *table, const struct order *set,
   size_t n = 0, class[4] = {0};
   double sum[5] = {0};
   for (size_t i = 0; i < b->n; i++) {
-    if (!region_holds(region, b->x + 3 * i))
+    if (bed_is_fixed(b, i) || !region_holds(region, b->x + 3 * i))
       continue;
     n++;
     class[bond_order_class(&o[i], set->least)]++;
@@ -133,7 +133,8 @@ int verb_order(int argc, char **argv) {
           "Bond-orientational order, one row per frame: means over spheres.\n"
           "  t            time (s)\n"
           "  spheres      spheres that are counted; those at walls and\n"
-          "               surface, whose neighbourhood is cut, are left out\n"
+          "               surface, whose neighbourhood is cut, are left out,\n"
+          "               and obstacles, which are neighbours only\n"
           "  neighbours   spheres within --cutoff of each\n"
           "  q4 q6        of Steinhardt, Nelson and Ronchetti (1983)\n"
           "  qbar4 qbar6  of Lechner and Dellago (2008): q_lm averaged over a\n"

@@ -42,6 +42,8 @@ for method in rkc multirate; do
   "$B/analyze" contacts --gap 0.002 "$T/$method.bed" > "$T/tsv"
   within "$method: spheres that are looked at" "$(row spheres "$T/tsv")" 48 48
 done
+"$B/analyze" order --margin 0 "$T/rkc.bed" > "$T/tsv"
+within 'order looks at spheres that are no obstacles' "$(row spheres "$T/tsv")" 48 48
 # the volume of all that stand apart, obstacles too
 awk 'BEGIN { print "x\ty\tz\tr\tfixed\n0\t0\t0\t1\t1\n9\t0\t0\t1\t0" }' |
   "$B/analyze" --box -9,19,-9,9,-9,9 > "$T/tsv"
