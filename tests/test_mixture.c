@@ -112,27 +112,35 @@ static void test_segregation(void) {
    spheres, all but the last the floor; one of these within the class. */
 static void test_contacts(void) {
   const double r[] = {0.2, 0.1, 0.1, 0.1}, z[] = {0.2, 0.1, 0.1, 1};
-  struct bed b = new_bed(4, r, z);
-  b.x[3] = sqrt(0.3 * 0.3 - 0.1 * 0.1) - 1e-9;
-  b.x[6] = b.x[3] + 0.2 - 1e-9;
-  for (size_t i = 0; i < 3; i++)
-    b.x[3 * i + 2] -= 1e-9;
+  const double large_x = sqrt(0.3 * 0.3 - 0.1 * 0.1);
+  const double x[] = {0, large_x - 1e-9, large_x + 0.2 - 2e-9, 0};
   struct scene s = scene_default();
   const double point[3] = {0}, down[3] = {0, 0, -1};
   CHECK(scene_add_wall(&s, point, down) == GSL_SUCCESS);
-  struct network w = {0};
-  CHECK(network_find(&w, &s, &b, 0.05) == GSL_SUCCESS);
-  network_mark(&w, 0, 0);
-  struct mixture m;
-  CHECK(mixture_of_radii(&b, &m) == GSL_SUCCESS);
-  mixture_measure(&m, &b, NULL, &w);
-  CHECK(m.at[1].z == 2 && m.at[1].z_own == 0 && m.at[1].z_walls == 1);
-  CHECK_REL(m.at[0].z, 5. / 3, 4 * DBL_EPSILON);
-  CHECK_REL(m.at[0].z_own, 2. / 3, 4 * DBL_EPSILON);
-  CHECK_REL(m.at[0].z_walls, 2. / 3, 4 * DBL_EPSILON);
-  network_free(&w);
+  for (size_t last = 0; last < 4;
+       last += 3) { /* the large one first, or last */
+    struct bed b;
+    CHECK(bed_alloc(&b, 4) == GSL_SUCCESS);
+    for (size_t k = 0; k < 4; k++) {
+      const size_t i = last ? last - k : k;
+      b.r[i] = r[k];
+      b.x[3 * i] = x[k];
+      b.x[3 * i + 2] = z[k] - (k < 3 ? 1e-9 : 0);
+    }
+    struct network w = {0};
+    CHECK(network_find(&w, &s, &b, 0.05) == GSL_SUCCESS);
+    network_mark(&w, 0, 0);
+    struct mixture m;
+    CHECK(mixture_of_radii(&b, &m) == GSL_SUCCESS);
+    mixture_measure(&m, &b, NULL, &w);
+    CHECK(m.at[1].z == 2 && m.at[1].z_own == 0 && m.at[1].z_walls == 1);
+    CHECK_REL(m.at[0].z, 5. / 3, 4 * DBL_EPSILON);
+    CHECK_REL(m.at[0].z_own, 2. / 3, 4 * DBL_EPSILON);
+    CHECK_REL(m.at[0].z_walls, 2. / 3, 4 * DBL_EPSILON);
+    network_free(&w);
+    bed_free(&b);
+  }
   scene_free(&s);
-  bed_free(&b);
 }
 
 /* Rods: the published figure of equal spheres; no unit matters, and neither the
@@ -172,6 +180,39 @@ static void test_close(void) {
   CHECK(where >= 0.6 && where <= 0.8);
 }
 
+static int descending(const void *a, const void *b) {
+  const double x = *(const double *)a, y = *(const double *)b;
+  return (x < y) - (x > y);
+}
+
+/* The rods of equal spheres put in by the plain rule: each into the widest gap
+   that there is, which it divides in two, of 0.7654 of its length at the least.
+ */
+static void test_rods(void) {
+  enum { N = 20000 };
+  static double rod[N], gap[N];
+  double r = 1, f, all = 0, empty = 0;
+  for (size_t k = 0; k < N; k++) {
+    const double u = (sqrt(5) - 1) / 2 * ((double)k + 0.5);
+    rod[k] = 2 * r * sqrt(u - floor(u));
+    all += rod[k];
+  }
+  qsort(rod, N, sizeof *rod, descending);
+  for (size_t k = 0; k < N; k++) {
+    const double least = 0.7654 * rod[k];
+    size_t widest = 0;
+    for (size_t i = 1; i < k; i++)
+      widest = gap[i] > gap[widest] ? i : widest;
+    if (k)
+      gap[widest] = fmax(least, gap[widest] - rod[k] - least);
+    gap[k] = least;
+  }
+  for (size_t k = 0; k < N; k++)
+    empty += gap[k];
+  CHECK(close_packing_rods(1, &r, &f) == GSL_SUCCESS);
+  CHECK_CLOSE(f, all / (all + empty), 1e-12);
+}
+
 /* By hand: radii 1, 1, 4 have the mean 2, the squares 1, 1, 4 about it, 2 on
    the average, and the cubes -1, -1, 8, 2 on the average. */
 static void test_spread(void) {
@@ -193,6 +234,7 @@ int main(void) {
   test_segregation();
   test_contacts();
   test_close();
+  test_rods();
   test_spread();
   return check_done();
 }

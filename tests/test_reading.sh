@@ -52,6 +52,14 @@ refuses two-places.csv "1: columns 'x' and 'pos_x' both may be x: expected one"
 reads two-places.csv '0 1' --columns -,-,-,r,x,y,z
 reads keys-of-others.csv '0 2'
 reads keys-of-others.tsv '0 1'
+# one that looks like ours is told why it does not count
+for key in radius=0.25 ' radius=0.25' radios=0.25; do
+  printf '#%s\nx,y,z\n0,0,0\n' "$key" >"$T/key"
+  ! "$B/analyze" "$T/key" >"$T/out" 2>"$T/err"
+  check "#$key: refused" [ $? -eq 0 ]
+  check "#$key: why" [ "$(grep -c "no radius: a key counts only under '# format" \
+    "$T/err")" = "$([[ $key == radios* ]] && echo 0 || echo 1)" ]
+done
 reads number-first.xyz '0 2'
 "$B/analyze" export --format positions --radius 0.5 $cases/number-first.xyz \
   >"$T/out"
@@ -155,6 +163,19 @@ refuses atomic.data '14: .*no radius'
 "$B/analyze" export --format csv --radius 1 $cases/atomic.data >"$T/out"
 check 'atomic.data: the mass of the type' \
   test "$(tail -n 1 "$T/out" | cut -d , -f 7)" = 7
+# the type is the second word or the third
+while read -r style row; do
+  printf '%s\n' 'LAMMPS data file' '' '1 atoms' '2 atom types' '' Masses '' '1 2.5' \
+    '2 7' '' "Atoms # $style" '' "$row" >"$T/type"
+  "$B/analyze" export --quiet --format csv --radius 1 "$T/type" >"$T/out"
+  check "the type of style $style" \
+    test "$(tail -n 1 "$T/out" | cut -d , -f 2-7)" = 1,3,4,5,1,7
+done <<'END'
+atomic 1 2 3 4 5
+charge 1 2 0.5 3 4 5
+bond 1 9 2 3 4 5
+full 1 9 2 0.5 3 4 5
+END
 reads no-style.data '0 3.90625'
 refuses full-or-sphere.data '8: 7 fields, and no atom style: expected'
 reads full-or-sphere.data '0 2' --columns id,-,d,-,x,y,z
