@@ -174,6 +174,8 @@ done <<'END'
 atomic 1 2 3 4 5
 charge 1 2 0.5 3 4 5
 bond 1 9 2 3 4 5
+molecular 1 9 2 3 4 5
+angle 1 9 2 3 4 5
 full 1 9 2 0.5 3 4 5
 END
 reads no-style.data '0 3.90625'

@@ -176,6 +176,23 @@ static void test_seeds(void) {
   sizes_free(s);
 }
 
+/* A share of all ends with the largest, wherever rounding has the sum of the
+   classes end. */
+static void test_last(void) {
+  double radius[40], share[40];
+  for (size_t count = 1; count <= 40; count++) {
+    for (size_t k = 0; k < count; k++) {
+      radius[k] = 0.1 + 0.01 * (double)k;
+      share[k] = 1 / (double)count;
+    }
+    struct sizes *s;
+    CHECK(sizes_alloc_table(&s, SIZES_MIX, false, count, radius, share) ==
+          GSL_SUCCESS);
+    CHECK(sizes_quantile(s, 1) == radius[count - 1]);
+    sizes_free(s);
+  }
+}
+
 static void test_masses(void) {
   const double r[] = {0.1, 0.2, 0.05};
   double m[3];
@@ -309,6 +326,7 @@ int main(void) {
   test_table();
   test_units();
   test_seeds();
+  test_last();
   test_masses();
   test_fill();
   test_rounding();
