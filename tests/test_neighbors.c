@@ -401,6 +401,33 @@ static void test_errors(gsl_rng *rng) {
   free_cloud(&c);
 }
 
+/* Threads share a search and find the same list. */
+static void test_threads(gsl_rng *rng) {
+  enum { N = 5001 };
+  gsl_rng_set(rng, 5);
+  struct cloud c = new_cloud(N, 3);
+  for (size_t i = 0; i < N; i++) {
+    c.r[i] = 0.1;
+    for (size_t k = 0; k < 3; k++)
+      c.x[3 * i + k] = uniform(rng, 0, 3);
+  }
+  struct neighbors one = {0};
+  CHECK(neighbors_find(&one, N, c.x, c.stride, c.r, 0.1) == GSL_SUCCESS);
+  CHECK(one.count > N);
+  for (size_t threads = 2; threads <= 4; threads++) {
+    struct neighbors nb = {.threads = threads};
+    for (size_t again = 0; again < 2; again++)
+      CHECK(neighbors_find(&nb, N, c.x, c.stride, c.r, 0.1) == GSL_SUCCESS);
+    CHECK(nb.count == one.count && nb.tested == one.tested);
+    CHECK(!memcmp(nb.i, one.i, one.count * sizeof *nb.i));
+    CHECK(!memcmp(nb.j, one.j, one.count * sizeof *nb.j));
+    CHECK(!memcmp(nb.first, one.first, (N + 1) * sizeof *nb.first));
+    neighbors_free(&nb);
+  }
+  neighbors_free(&one);
+  free_cloud(&c);
+}
+
 int main(void) {
   limit_cpu(300); /* a loop without end is a failure too */
   gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
@@ -409,6 +436,7 @@ int main(void) {
   test_exact();
   test_flung_cost(rng);
   test_mixed_cost(rng);
+  test_threads(rng);
   test_errors(rng);
   gsl_rng_free(rng);
   return check_done();

@@ -342,6 +342,45 @@ static void test_threads(gsl_rng *rng) {
   free(first);
 }
 
+/* Near and far contacts of a large list are dealt out by several threads, to
+   the same lists. */
+static void test_shared_split(gsl_rng *rng) {
+  enum { N = 2500 };
+  struct sample s[2];
+  struct contact_list *near[2], *far[2];
+  for (int k = 0; k < 2; k++) {
+    gsl_rng_set(rng, 8);
+    s[k] = random_sample(rng, N, k ? 3 : 1);
+    near[k] = part_of(s[k].list);
+    far[k] = part_of(s[k].list);
+    const struct contact_reach reach = {.y = s[k].y, .h = 1e-3, .gap = 0.02};
+    for (int again = 0; again < 2; again++)
+      CHECK(contact_subset_split(near[k], far[k], s[k].list, &reach) ==
+            GSL_SUCCESS);
+  }
+  for (int k = 0; k < 2; k++) {
+    const struct contact_list *a = k ? near[0] : far[0],
+                              *b = k ? near[1] : far[1];
+    if (!CHECK(a->near.count > N / 10 && a->near.count == b->near.count) ||
+        !CHECK(a->wall_contacts > 0 && a->wall_contacts == b->wall_contacts))
+      continue;
+    const size_t pairs = a->near.count * sizeof *a->near.i,
+                 walls = a->wall_contacts * sizeof *a->wall_row;
+    CHECK(!memcmp(a->near.i, b->near.i, pairs));
+    CHECK(!memcmp(a->near.j, b->near.j, pairs));
+    CHECK(!memcmp(a->wall_row, b->wall_row, walls));
+    CHECK(!memcmp(a->wall_id, b->wall_id, walls));
+    const size_t firsts = (N + 1) * sizeof *a->near.first;
+    CHECK(!memcmp(a->near.first, b->near.first, firsts));
+    CHECK(!memcmp(a->wall_first, b->wall_first, firsts));
+  }
+  for (int k = 0; k < 2; k++) {
+    contact_list_free(near[k]);
+    contact_list_free(far[k]);
+    sample_free(&s[k]);
+  }
+}
+
 /* No row, and one without a partner. */
 static void test_empty(gsl_rng *rng) {
   gsl_rng_set(rng, 1);
@@ -410,6 +449,7 @@ int main(void) {
   }
   test_holds(rng);
   test_threads(rng);
+  test_shared_split(rng);
   test_empty(rng);
   test_first_sphere();
   gsl_rng_free(rng);

@@ -19,10 +19,6 @@ static const double most_skin = 2;
    partners are near each other in memory. */
 enum { REORDER = 1024 };
 
-/* From this number of spheres on, threads share loops of a few operations per
-   sphere. */
-enum { WORTH_SHARING = 4096 };
-
 /* Zeroed; never NULL for want of size. */
 static void *allocate(size_t count, size_t size) {
   return calloc(count ? count : 1, size);
@@ -152,7 +148,7 @@ int contact_list_alloc(struct contact_list **out, const struct scene *s,
   if (!l)
     return GSL_ENOMEM;
   l->rows = b->n;
-  l->threads = l->most_threads = threads;
+  l->threads = l->most_threads = l->near.threads = threads;
   l->walls_count = s->walls_count;
   int status = reserve_rows(l, s->walls_count, threads);
   if (status == GSL_SUCCESS && order)
@@ -405,7 +401,7 @@ static bool measure_way(const struct contact_list *l, const double *y,
   bool sound = true; /* a maximum keeps a NaN out */
 #pragma omp parallel for num_threads((int)l->threads) schedule(static)         \
     reduction(max : furthest) reduction(&& : sound)                            \
-    if (l->rows >= WORTH_SHARING)
+    if (l->rows >= CONTACT_SHARED)
   for (size_t i = 0; i < l->rows; i++) {
     const double *x = y + i * l->stride, *x0 = l->reference + 3 * i;
     const double dx = x[0] - x0[0], dy = x[1] - x0[1], dz = x[2] - x0[2];

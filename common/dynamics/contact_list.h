@@ -25,9 +25,10 @@ struct contact_features {
   bool rolling; /* resistance */
 };
 
-/* Doubles in the sum of a row: force, 0, sum of n x friction, 0; and rows that
-   a part finishes at a time. */
-enum { CONTACT_SUM = 8, CONTACT_CHUNK = 64 };
+/* Doubles in the sum of a row: force, 0, sum of n x friction, 0; rows that a
+   part finishes at a time; and rows from which on threads share loops of a few
+   operations for each. */
+enum { CONTACT_SUM = 8, CONTACT_CHUNK = 64, CONTACT_SHARED = 4096 };
 
 /* Rows [from, to) that one thread computes, and their sums, zero between
    evaluations. Row i's sum is number i & mask: only the rows from the one being
@@ -36,7 +37,8 @@ enum { CONTACT_SUM = 8, CONTACT_CHUNK = 64 };
 struct contact_part {
   size_t from, to;
   double *sums;
-  size_t mask; /* a power of two less one */
+  size_t mask;         /* a power of two less one */
+  size_t pairs, walls; /* of contact_subset.c */
 };
 
 struct contact_list {

@@ -98,7 +98,7 @@ static inline bool rows_within(const double *p, const double *q, double most,
     periodic_nearest(period, u);
   vec3_sub(p + ROW_V, q + ROW_V, v);
   const double nearest = vec3_dot(u, u) + twice * GSL_MIN(vec3_dot(u, v), 0);
-  return nearest <= most * most && most > 0;
+  return (nearest <= most * most) & (most > 0);
 }
 
 /* Twice the time that speeds as they are now would take to go as far. */
@@ -277,45 +277,122 @@ static int copy_rows(struct contact_list *to, const struct contact_list *from) {
   to->ghosts = from->ghosts;
   to->span = from->span;
   for (size_t i = 0; i < all; i++)
-    copy_row(to, i, from, i);
+    to->order[i] = i;
+  memcpy(to->radius, from->radius, all * sizeof *to->radius);
+  memcpy(to->mass, from->mass, all * sizeof *to->mass);
+  memcpy(to->push, from->push, all * sizeof *to->push);
+  memcpy(to->turn, from->turn, all * sizeof *to->turn);
   return GSL_SUCCESS;
+}
+
+/* Where the next pair and wall of a part go, and where its first were. */
+struct places {
+  size_t pair, wall;
+};
+
+/* Deals row i's pairs out to both lists; no branch: which it is cannot be told
+   ahead. */
+static inline void deal_pairs(struct contact_list *const to[2],
+                              const struct contact_list *from, size_t i,
+                              const struct contact_reach *reach, bool periodic,
+                              struct places at[2]) {
+  const size_t stride = from->stride;
+  const double *p = reach->y + i * stride, twice = twice_of(reach);
+  const double most = from->radius[i] + reach->gap;
+  uint32_t *restrict far_i = to[0]->near.i, *restrict far_j = to[0]->near.j;
+  uint32_t *restrict near_i = to[1]->near.i, *restrict near_j = to[1]->near.j;
+  size_t a = at[0].pair, b = at[1].pair;
+  for (size_t q = from->near.first[i]; q < from->near.first[i + 1]; q++) {
+    const uint32_t j = from->near.j[q];
+    const bool within =
+        rows_within(p, reach->y + j * stride, most + from->radius[j], twice,
+                    periodic ? from->period : NULL);
+    far_i[a] = near_i[b] = (uint32_t)i;
+    far_j[a] = near_j[b] = j;
+    a += !within;
+    b += within;
+  }
+  at[0].pair = a;
+  at[1].pair = b;
+}
+
+static void deal_walls(struct contact_list *const to[2],
+                       const struct contact_list *from, size_t i,
+                       const struct contact_reach *reach, struct places at[2]) {
+  for (size_t q = from->wall_first[i]; q < from->wall_first[i + 1]; q++) {
+    const bool within = wall_within(from, q, reach);
+    struct places *place = &at[within];
+    to[within]->wall_row[place->wall] = (uint32_t)i;
+    to[within]->wall_id[place->wall++] = from->wall_id[q];
+  }
+}
+
+/* Deals out the contacts of a part's rows, into the room of that part. */
+static void deal_part(struct contact_list *const to[2],
+                      const struct contact_list *from, size_t part,
+                      const struct contact_reach *reach) {
+  const struct contact_part *rows = &from->part[part];
+  const struct places begin = {from->near.first[rows->from],
+                               from->wall_first[rows->from]};
+  struct places at[2] = {begin, begin};
+  for (size_t i = rows->from; i < rows->to; i++) {
+    for (int k = 0; k < 2; k++) {
+      to[k]->near.first[i] = at[k].pair;
+      to[k]->wall_first[i] = at[k].wall;
+    }
+    if (from->periodic)
+      deal_pairs(to, from, i, reach, true, at);
+    else
+      deal_pairs(to, from, i, reach, false, at);
+    deal_walls(to, from, i, reach, at);
+  }
+  for (int k = 0; k < 2; k++) {
+    to[k]->part[part].pairs = at[k].pair - begin.pair;
+    to[k]->part[part].walls = at[k].wall - begin.wall;
+  }
+}
+
+/* Moves what was dealt to each part next to that of the part before it. */
+static void close_gaps(struct contact_list *l,
+                       const struct contact_list *from) {
+  struct places end = {0};
+  for (size_t p = 0; p < from->threads; p++) {
+    const size_t first = from->part[p].from;
+    const size_t pair = from->near.first[first], wall = from->wall_first[first];
+    const size_t pairs = l->part[p].pairs, walls = l->part[p].walls;
+    if (pair > end.pair || wall > end.wall) {
+      memmove(l->near.i + end.pair, l->near.i + pair, pairs * sizeof(uint32_t));
+      memmove(l->near.j + end.pair, l->near.j + pair, pairs * sizeof(uint32_t));
+      memmove(l->wall_row + end.wall, l->wall_row + wall,
+              walls * sizeof(uint32_t));
+      memmove(l->wall_id + end.wall, l->wall_id + wall,
+              walls * sizeof(uint32_t));
+      for (size_t i = first; i < from->part[p].to; i++) {
+        l->near.first[i] -= pair - end.pair;
+        l->wall_first[i] -= wall - end.wall;
+      }
+    }
+    end.pair += pairs;
+    end.wall += walls;
+  }
+  l->near.first[l->rows] = l->near.count = end.pair;
+  l->wall_first[l->rows] = l->wall_contacts = end.wall;
 }
 
 int contact_subset_split(struct contact_list *near, struct contact_list *far,
                          const struct contact_list *from,
                          const struct contact_reach *reach) {
-  struct contact_list *to[2] = {far, near};
-  const double twice = twice_of(reach);
-  const double *period = from->periodic ? from->period : NULL;
-  size_t pairs[2] = {0, 0}, walls[2] = {0, 0};
+  struct contact_list *const to[2] = {far, near};
+  const int threads = (int)from->threads;
   if (copy_rows(near, from) != GSL_SUCCESS ||
       copy_rows(far, from) != GSL_SUCCESS)
     return GSL_ENOMEM;
-  for (size_t i = 0; i < from->rows; i++) {
-    for (int k = 0; k < 2; k++) {
-      to[k]->near.first[i] = pairs[k];
-      to[k]->wall_first[i] = walls[k];
-    }
-    const double *p = reach->y + i * from->stride;
-    const double most = from->radius[i] + reach->gap;
-    for (size_t q = from->near.first[i]; q < from->near.first[i + 1]; q++) {
-      const uint32_t j = from->near.j[q];
-      const int k = rows_within(p, reach->y + j * from->stride,
-                                most + from->radius[j], twice, period);
-      /* no branch: which it is cannot be told ahead */
-      near->near.i[pairs[1]] = far->near.i[pairs[0]] = (uint32_t)i;
-      near->near.j[pairs[1]] = far->near.j[pairs[0]] = j;
-      pairs[k]++;
-    }
-    for (size_t q = from->wall_first[i]; q < from->wall_first[i + 1]; q++) {
-      const int k = wall_within(from, q, reach);
-      to[k]->wall_row[walls[k]] = (uint32_t)i;
-      to[k]->wall_id[walls[k]++] = from->wall_id[q];
-    }
-  }
+#pragma omp parallel for num_threads(threads)                                  \
+    schedule(static, 1) if (contact_list_size(from) >= WORTH_SHARING)
+  for (int p = 0; p < threads; p++)
+    deal_part(to, from, (size_t)p, reach);
   for (int k = 0; k < 2; k++) {
-    to[k]->near.first[from->rows] = to[k]->near.count = pairs[k];
-    to[k]->wall_first[from->rows] = to[k]->wall_contacts = walls[k];
+    close_gaps(to[k], from);
     to[k]->threads = from->threads;
     const int status = contact_list_share(to[k]);
     if (status != GSL_SUCCESS)

@@ -366,14 +366,15 @@ static bool may_be_shorter(int status) {
 }
 
 static void accept(struct level *l, double h) {
+  level_accept(l);
+#pragma omp parallel for num_threads((int)l->list->threads)                    \
+    schedule(static) if (l->rows >= CONTACT_SHARED)
   for (size_t i = 0; i < l->rows; i++) {
     if (!l->flagged[i])
       l->wanted[i] = wanted_step(h, l->error[i], lengthen);
     l->refined[i] = l->flagged[i];
-  }
-  level_accept(l);
-  for (size_t i = 0; i < l->rows; i++)
     l->wanted[i] = GSL_MIN(l->wanted[i], level_row_limit(l, i));
+  }
 }
 
 /* Forgets all that was found within the step. */

@@ -325,6 +325,8 @@ static double travel_error(const struct level *l, size_t row, double h) {
    tolerance. */
 static void estimate_errors(struct level *l, double h) {
   const struct level_setting *s = l->setting;
+#pragma omp parallel for num_threads((int)l->list->threads)                    \
+    schedule(static) if (l->rows >= CONTACT_SHARED)
   for (size_t i = 0; i < l->rows; i++) {
     const size_t at = i * l->stride;
     double e[ROW_SPIN];

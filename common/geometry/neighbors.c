@@ -255,6 +255,9 @@ static void fill_cells(const struct cloud *c, struct level *l, uint32_t *cell,
   }
 }
 
+/* Spheres from which on threads share a search. */
+enum { WORTH_SHARING = 4096 };
+
 /* Into what is compiled for several instruction sets. */
 #define INLINE static inline __attribute__((always_inline))
 
@@ -375,18 +378,67 @@ static int sort_pairs(struct neighbors *nb, size_t n) {
   return GSL_SUCCESS;
 }
 
-/* All spheres of one level: pairs come in the order of i. */
+/* Appends the pairs of spheres [from, to), all spheres being of one level, and
+   notes in first where those of each end. */
 MULTIVERSION
-static int search_level(struct neighbors *nb, const struct cloud *c,
-                        const struct level *l) {
-  for (size_t i = 0; i < c->n; i++) {
+static int search_some(struct neighbors *nb, const struct cloud *c,
+                       const struct level *l, size_t from, size_t to,
+                       size_t *first) {
+  for (size_t i = from; i < to; i++) {
     const size_t begin = nb->count;
     if (append_pairs(nb, c, l, i, true) != GSL_SUCCESS)
       return GSL_ENOMEM;
     sort_few(nb->j + begin, nb->count - begin);
-    nb->first[i + 1] = nb->count;
+    first[i + 1] = nb->count;
   }
   return GSL_SUCCESS;
+}
+
+/* Appends what another thread found for spheres [from, to). */
+static int append_found(struct neighbors *nb, const struct neighbors *found,
+                        size_t from, size_t to) {
+  const size_t count = nb->count;
+  if (reserve_pairs(nb, count + found->count) != GSL_SUCCESS)
+    return GSL_ENOMEM;
+  memcpy(nb->i + count, found->i, found->count * sizeof *nb->i);
+  memcpy(nb->j + count, found->j, found->count * sizeof *nb->j);
+  for (size_t i = from; i < to; i++)
+    nb->first[i + 1] += count;
+  nb->count += found->count;
+  nb->tested += found->tested;
+  return GSL_SUCCESS;
+}
+
+static int reserve_helpers(struct neighbors *nb, size_t count) {
+  if (!nb->helper)
+    nb->helper = calloc(count, sizeof *nb->helper);
+  nb->helpers = nb->helper ? count : 0;
+  return nb->helper ? GSL_SUCCESS : GSL_ENOMEM;
+}
+
+/* All spheres of one level: pairs come in the order of i. The first thread
+   writes into the list itself. */
+static int search_level(struct neighbors *nb, const struct cloud *c,
+                        const struct level *l) {
+  const size_t n = c->n, threads = n >= WORTH_SHARING ? nb->threads : 1;
+  if (threads <= 1)
+    return search_some(nb, c, l, 0, n, nb->first);
+  if (reserve_helpers(nb, nb->threads - 1) != GSL_SUCCESS)
+    return GSL_ENOMEM;
+  bool found = true;
+#pragma omp parallel for num_threads((int)threads) schedule(static, 1)         \
+    reduction(&& : found)
+  for (size_t p = 0; p < threads; p++) {
+    struct neighbors *own = p ? &nb->helper[p - 1] : nb;
+    own->count = own->tested = 0;
+    found = search_some(own, c, l, n * p / threads, n * (p + 1) / threads,
+                        nb->first) == GSL_SUCCESS &&
+            found;
+  }
+  for (size_t p = 1; p < threads && found; p++)
+    found = append_found(nb, &nb->helper[p - 1], n * p / threads,
+                         n * (p + 1) / threads) == GSL_SUCCESS;
+  return found ? GSL_SUCCESS : GSL_ENOMEM;
 }
 
 static int search_levels(struct neighbors *nb, const struct cloud *c,
@@ -526,5 +578,8 @@ void neighbors_free(struct neighbors *nb) {
   free(nb->j);
   free(nb->first);
   free(nb->scratch);
+  for (size_t k = 0; k < nb->helpers; k++)
+    neighbors_free(&nb->helper[k]);
+  free(nb->helper);
   *nb = (struct neighbors){0};
 }

@@ -9,15 +9,19 @@
 
 /* Pair p joins spheres i[p] < j[p]; pairs are sorted by (i, j). Sphere i's
    pairs as the first partner are first[i] <= p < first[i+1]. Zero-initialise;
-   neighbors_find grows the arrays and reuses them. */
+   neighbors_find grows the arrays and reuses them; the same pairs for any
+   number of threads. */
 struct neighbors {
   size_t count, size; /* pairs held, pairs there is room for */
   uint32_t *i, *j;    /* count */
   size_t *first;      /* spheres + 1 */
   size_t spheres_size;
-  size_t tested;       /* pairs whose distance the search looked at */
-  void *scratch;       /* of the cell grids */
-  size_t scratch_size; /* bytes */
+  size_t tested;            /* pairs whose distance the search looked at */
+  void *scratch;            /* of the cell grids */
+  size_t scratch_size;      /* bytes */
+  size_t threads;           /* that share large searches; 0: one */
+  struct neighbors *helper; /* of the threads beside the first */
+  size_t helpers;
 };
 
 /* Lists every pair whose gap |x_i - x_j| - r_i - r_j is at most reach (m).
