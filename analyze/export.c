@@ -32,23 +32,24 @@ static const struct format {
   bool many;         /* frames in one file */
   bool series;       /* ParaView's .pvd lists such files */
   bool boxed;        /* it is what the box holds */
+  bool filled;       /* spheres have copies across periodic sides */
   bool full;         /* is nothing without spheres */
 } formats[] = {
     {.name = "positions",
      .help = "x y z of the centres, tab-separated, nothing else",
      .sphere = 30,
-     .takes = "scale offset",
+     .takes = "scale offset images",
      .write = write_positions},
     {.name = "csv",
      .help = "a row of names, one row per sphere, the first column t",
      .sphere = 100,
-     .takes = "scale offset",
+     .takes = "scale offset images",
      .write = write_csv,
      .many = true},
     {.name = "xyz",
      .help = "extended XYZ: OVITO, ASE",
      .sphere = 100,
-     .takes = "scale offset box",
+     .takes = "scale offset box images",
      .write = write_xyz,
      .many = true},
     {.name = "lammps",
@@ -65,7 +66,7 @@ static const struct format {
     {.name = "vtp",
      .help = "VTK PolyData, one vertex per sphere: ParaView",
      .sphere = 100,
-     .takes = "scale offset network",
+     .takes = "scale offset network images",
      .write = write_vtp,
      .binary = true,
      .series = true},
@@ -73,6 +74,7 @@ static const struct format {
      .help = "surfaces of the spheres, binary",
      .takes = "scale offset box facets equal-volume merged cells" SOLID,
      .write = write_stl,
+     .filled = true,
      .cells_merged = true,
      .binary = true},
     {.name = "vti",
@@ -115,6 +117,7 @@ static const struct format {
      .help = "folder for the paper's solver: positions, a part of Params",
      .takes = "scale offset box",
      .write_files = write_freezethaw,
+     .filled = true,
      .base = 0.03},
     {.name = "bed",
      .help = "our own format",
@@ -181,6 +184,8 @@ static void check_together(struct option_spec *options, const struct request *q,
     die(EXIT_USAGE, "--reach: expected --bridge with it");
   if (given(options, "thickness") && (!q->shape.walls || q->shape.box_given))
     die(EXIT_USAGE, "--thickness: expected --walls and no --box with it");
+  if (w->network && q->shape.images)
+    die(EXIT_USAGE, "--network: expected no --images with it");
   if (w->binary && w->distance)
     die(EXIT_USAGE, "--binary and --distance: expected one of them");
   if (w->binary && given(options, "type"))
@@ -438,6 +443,8 @@ int verb_export(int argc, char **argv) {
        .least = 0, .most = OPTION_MANY,
        .unit = "m, 0: as the least radius; with --box: up to its faces",
        .help = "of walls"},
+      {.name = "images", .type = OPTION_FLAG, .value = &q.shape.images,
+       .help = "copies across periodic sides, too, as surfaces and voxels have"},
       {.name = "cells", .type = OPTION_LIST, .value = &cells, .least = 1,
        .most = 3, .unit = "N or NX,NY,NZ", .help = "voxels; of surfaces along the longest side, openfoam: 40"},
       {.name = "binary", .type = OPTION_FLAG, .value = &q.write.binary,
@@ -485,7 +492,7 @@ int verb_export(int argc, char **argv) {
   check_taken(options, q.format);
   box_check(&box);
   q.shape.box_given = box.count;
-  q.shape.images = q.format->boxed;
+  q.shape.images = q.shape.images || q.format->boxed || q.format->filled;
   check_together(options, &q, cells.count);
   q.chosen = given(options, "frame");
   q.all = which ? !strcmp(which, "all") : q.format->many && !q.chosen;

@@ -43,8 +43,7 @@ static void move_box(const struct shape *s, double box[6]) {
 }
 
 /* Lengths and speeds into the client's units; 1 and 0 change no bit. */
-static void move(struct shape *s) {
-  struct bed *b = &s->bed;
+static void move_bed(const struct shape *s, struct bed *b) {
   for (size_t i = 0; i < b->n; i++) {
     for (size_t k = 0; k < 3; k++) {
       b->x[3 * i + k] = s->scale * b->x[3 * i + k] + s->offset[k];
@@ -52,6 +51,11 @@ static void move(struct shape *s) {
     }
     b->r[i] *= s->scale;
   }
+}
+
+static void move(struct shape *s) {
+  move_bed(s, &s->bed);
+  move_bed(s, &s->filled);
   move_box(s, s->box);
   move_box(s, s->lattice);
   struct container *c = &s->container;
@@ -97,13 +101,16 @@ static void find_bridges(struct shape *s, const struct shape_options *o) {
 
 static void shrink(struct shape *s, const struct shape_options *o) {
   struct bed *b = &s->bed;
-  const int status = solid_shrink(b->n, b->x, b->r, o->gap, &s->factor);
+  const int status =
+      solid_shrink(s->solid.n, s->solid.x, s->solid.r, o->gap, &s->factor);
   if (status == GSL_EDOM)
     frame_refuse(s->frames, s->source,
                  "--gap: two centres are no farther apart than that");
   frame_check(s->frames, s->source, status);
   for (size_t i = 0; i < b->n; i++)
     b->r[i] *= s->factor;
+  for (size_t i = 0; i < s->filled.n; i++)
+    s->filled.r[i] *= s->factor;
 }
 
 static double nearer(int face, double a, double b) {
@@ -197,11 +204,48 @@ static void measure_bare(struct shape *s) {
   struct solid bare = s->solid;
   struct solid_volume v;
   bare.bridges = 0;
-  bare.r = s->source->r;
+  bare.r = s->images.n ? s->images.r : s->source->r;
   if (!frame_box_resolved(s->source, s->box))
     return;
   frame_check(s->frames, s->source, solid_volume(&bare, s->box, &v));
   s->bare = v.spheres / box_volume(s->box);
+}
+
+/* Copies get numbers of their own, after all others. */
+static void number_copies(struct bed *images, const struct bed *from) {
+  long last = 0;
+  for (size_t i = 0; i < from->n; i++)
+    last = GSL_MAX(last, from->id[i]);
+  size_t i = 0;
+  for (size_t m = 0; m < images->n; m++) {
+    while (from->id[i] != images->id[m]) /* they come in this order */
+      i++;
+    if (memcmp(from->x + 3 * i, images->x + 3 * m, 3 * sizeof *from->x))
+      images->id[m] = ++last;
+  }
+}
+
+/* The copies of a periodic bed's spheres that reach into the box, with them. */
+static void add_copies(struct shape *s, bool written) {
+  if (!bed_header_get(s->header, "periodic"))
+    return;
+  struct scene scene = frame_scene(s->frames, s->source);
+  for (int k = 0; k < 3; k++) {
+    const double period = scene.period[k];
+    const double times = (s->box[2 * k + 1] - s->box[2 * k]) / period;
+    s->around[k] = period > 0 && fabs(times - rint(times)) < 1e-9;
+    s->wraps[k] = period > 0 && !written && !s->box_given;
+    if (s->wraps[k]) {
+      s->lattice[2 * k] = 0;
+      s->lattice[2 * k + 1] = period;
+    }
+  }
+  if (s->source->n) {
+    frame_check(s->frames, s->source, bed_copy(&s->images, s->source));
+    frame_add_images(s->frames, &s->images, 1, (const double(*)[6])s->box);
+    number_copies(&s->images, s->source);
+  }
+  scene_free(&scene);
 }
 
 void shape_make(struct shape *s, const struct shape_options *o,
@@ -221,16 +265,21 @@ void shape_make(struct shape *s, const struct shape_options *o,
     memcpy(s->box, o->box, sizeof s->box);
   else
     frame_base_box(s->header, s->box);
-  if (o->images) {
-    frame_check(f, b, bed_copy(&s->images, b));
-    frame_add_images(f, &s->images, 1, (const double(*)[6])s->box);
+  lattice(s->header, b, s->lattice);
+  add_copies(s, o->images);
+  if (o->images && s->images.n) {
+    s->copies = true;
     s->source = b = &s->images;
+  } else if (s->images.n) {
+    frame_check(f, b, bed_copy(&s->filled, &s->images));
   }
   frame_check(f, b, bed_copy(&s->bed, b));
-  lattice(s->header, &s->bed, s->lattice);
+  if (s->copies)
+    lattice(s->header, b, s->lattice);
   if (o->box_given)
     memcpy(s->lattice, s->box, sizeof s->lattice);
-  s->solid = (struct solid){.n = s->bed.n, .x = s->bed.x, .r = s->bed.r};
+  const struct bed *solid = s->filled.n ? &s->filled : &s->bed;
+  s->solid = (struct solid){.n = solid->n, .x = solid->x, .r = solid->r};
   if (o->gap_given)
     shrink(s, o);
   if (o->bridge > 0)
@@ -268,7 +317,10 @@ void shape_measure(struct shape *s) {
   if (s->statement[0])
     return;
   s->statement[0] = 0;
-  add(s, "t=%g: %zu spheres, ", s->bed.t, s->bed.n);
+  add(s, "t=%g: %zu spheres%s, ", s->bed.t, s->bed.n,
+      s->copies     ? " with copies across periodic sides"
+      : s->images.n ? " of a periodic bed"
+                    : "");
   if (!frame_box_resolved(&s->bed, s->box)) {
     add(s, "in a box too small beside them for its volume");
     return;
@@ -370,4 +422,5 @@ void shape_free(struct shape *s) {
   s->planes = NULL;
   bed_free(&s->bed);
   bed_free(&s->images);
+  bed_free(&s->filled);
 }

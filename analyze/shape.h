@@ -13,7 +13,7 @@
 struct shape_options {
   double scale, offset[3]; /* x becomes scale x + offset */
   double base; /* above 0: scale is such that the box is so wide along x */
-  bool images; /* of spheres across periodic sides, too */
+  bool images; /* what is written has the copies across periodic sides */
   bool box_given;
   double box[6]; /* of fractions, voxels and surfaces; else the bed's base */
   bool gap_given;
@@ -25,13 +25,17 @@ struct shape_options {
 };
 
 struct shape {
-  struct bed bed;    /* its own copy */
-  struct bed images; /* the frame with them, or empty */
+  struct bed bed;    /* its own copy of what is written */
+  struct bed images; /* the frame with the copies across periodic sides */
+  struct bed filled; /* of a periodic bed: a copy of that, for the solid */
   const struct bed_header *header;
   const struct frames *frames; /* for messages */
   struct solid solid;
-  const struct bed *source; /* the frame as it came, and the box */
-  double source_box[6];
+  const struct bed *source; /* the frame that is written, as it came */
+  bool copies;              /* are those across periodic sides in it? */
+  bool around[3];           /* axes along which the box is whole periods long */
+  bool wraps[3];        /* axes along which the lattice is the periodic cell */
+  double source_box[6]; /* the box as it came */
   double scale, offset[3];
   bool box_given;
   double box[6];     /* the one of the options, as it is handed over */

@@ -14,8 +14,11 @@ void write_lammps(FILE *out, const struct write_frame *f,
   numbers_write(out, ' ', 1, &b->t);
   fprintf(out,
           "\nITEM: TIMESTEP\n%zu\nITEM: NUMBER OF ATOMS\n%zu\n"
-          "ITEM: BOX BOUNDS ff ff ff\n",
+          "ITEM: BOX BOUNDS",
           f->number, b->n);
+  for (int k = 0; k < 3; k++)
+    fputs(f->shape->wraps[k] ? " pp" : " ff", out);
+  fputc('\n', out);
   for (int k = 0; k < 3; k++) {
     numbers_write(out, ' ', 2, f->shape->lattice + 2 * k);
     fputc('\n', out);

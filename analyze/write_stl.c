@@ -345,11 +345,16 @@ static void check_merged(int status, size_t cells) {
 /* One closed surface of the union: of all of it, or within a box. */
 static void write_merged(FILE *out, const char *name, struct shape *s,
                          const struct write_options *o) {
-  const bool clip = s->box_given || s->solid.container;
+  const bool whole = !s->box_given && !s->solid.container;
+  const bool clip = !whole || s->copies;
   double region[6];
   memcpy(region, s->box, sizeof region);
-  if (!clip)
+  if (whole) { /* but for periodic sides, which cut it */
     shape_bounds(s, region);
+    for (int k = 0; k < 6; k++)
+      if (s->around[k / 2])
+        region[k] = s->box[k];
+  }
   struct surface *surface = NULL;
   size_t count = 0;
   check_merged(surface_open(&surface, &s->solid, region, clip, o->cells[0]),

@@ -52,15 +52,17 @@ static int tell_row(struct told *t, const struct write_options *o, size_t nx,
 static void tell(const struct told *t, const struct write_frame *f,
                  const struct write_options *o) {
   const size_t *cells = o->cells;
+  const bool *around = f->shape->around;
   size_t count[2];
   parts_count(t->parts, count);
   shape_add(f->shape,
-            "%zu x %zu x %zu cells, %s %.12g; cells that share a face make "
+            "%zu x %zu x %zu cells, %s %.12g; cells that share a face%s make "
             "%zu solid part%s and %zu pore part%s",
             cells[0], cells[1], cells[2],
             o->binary || o->distance ? "solid share of midpoints"
                                      : "mean solid fraction",
             t->sum / (double)cells[0] / (double)cells[1] / (double)cells[2],
+            around[0] || around[1] ? ", also across periodic sides," : "",
             count[true], count[true] == 1 ? "" : "s", count[false],
             count[false] == 1 ? "" : "s");
 }
@@ -74,11 +76,12 @@ static void write_numbers(FILE *out, const struct write_options *o, size_t nx,
   write_little_endian(out, value, number_size(o), nx);
 }
 
-/* Writes the rows of a grid over a box, x fastest, then y, then z. */
+/* Writes the rows of a grid over a box, x fastest, then y, then z; around: axes
+   along which its ends meet. */
 static void write_grid(FILE *out, const struct write_frame *f,
                        const struct write_options *o, const struct solid *solid,
                        const double box[6], const size_t cells[3],
-                       write_row *row) {
+                       const bool around[3], write_row *row) {
   const enum voxels_value what = o->binary     ? VOXELS_MIDPOINT
                                  : o->distance ? VOXELS_DISTANCE
                                                : VOXELS_FRACTION;
@@ -88,8 +91,8 @@ static void write_grid(FILE *out, const struct write_frame *f,
   struct told told = {.solid = calloc(nx, sizeof *told.solid)};
   double *value =
       nx > SIZE_MAX / rows ? NULL : calloc(nx * rows, sizeof *value);
-  int status =
-      value && told.solid ? parts_open(&told.parts, nx, ny) : GSL_ENOMEM;
+  int status = value && told.solid ? parts_open(&told.parts, nx, ny, around)
+                                   : GSL_ENOMEM;
   if (!status)
     status = voxels_open(&v, solid, box, cells);
   struct progress progress = progress_begin(o->quiet);
@@ -129,7 +132,7 @@ static void write_cells(FILE *out, const struct write_frame *f,
                         const struct write_options *o) {
   need_room(out, f->name, o, number_size(o));
   write_grid(out, f, o, &f->shape->solid, f->shape->box, o->cells,
-             write_numbers);
+             f->shape->around, write_numbers);
 }
 
 void write_raw(FILE *out, const struct write_frame *f,
@@ -235,7 +238,9 @@ void write_palabos(FILE *out, const struct write_frame *f,
   }
   struct write_options flags = *o;
   flags.binary = true;
-  write_grid(out, f, &flags, &solid, turned, cells, write_flags);
+  const bool *along = f->shape->around;
+  const bool around[3] = {along[2], along[1], along[0]};
+  write_grid(out, f, &flags, &solid, turned, cells, around, write_flags);
   free(plane);
   free(x);
 }

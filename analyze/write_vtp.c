@@ -29,10 +29,11 @@ enum {
   ARRAYS
 };
 
-/* Lines from centre to centre, or from a centre to its foot on a wall: a point
-   of its own, behind those of the spheres. */
+/* Lines from centre to centre, or from a centre to a point of its own, behind
+   those of the spheres: its foot on a wall, or the copy of the other centre
+   across a periodic side. */
 struct lines {
-  size_t count, feet;
+  size_t count, feet, walls;
   double *points; /* 3 for each sphere and foot */
   int64_t *ends, *offsets;
   double *normal, *friction, *gap; /* of vertices and lines */
@@ -52,6 +53,26 @@ static void find_contacts(const struct shape *s, struct network *w) {
   bed_free(&b);
 }
 
+static double radius_of(const struct shape *s, size_t i) {
+  const double dynamics = radius_dynamics(s->header);
+  return dynamics > 0 ? dynamics : s->source->r[i];
+}
+
+/* From centre i to the other end of its line (m). */
+static double way(const struct shape *s, const struct network_contact *c) {
+  return radius_of(s, c->i) + c->gap + (c->wall ? 0 : radius_of(s, c->j));
+}
+
+/* Does the line end at a point of its own? */
+static bool has_foot(const struct shape *s, const struct network_contact *c) {
+  if (c->wall)
+    return true;
+  double d[3];
+  vec3_sub(s->source->x + 3 * c->i, s->source->x + 3 * c->j, d);
+  vec3_axpy(-way(s, c), c->n, d);
+  return vec3_norm(d) > radius_of(s, c->i);
+}
+
 static struct lines make_lines(const struct shape *s) {
   const struct bed *b = &s->bed;
   struct network w = {0};
@@ -59,7 +80,8 @@ static struct lines make_lines(const struct shape *s) {
   struct lines l = {0};
   for (size_t p = 0; p < w.count; p++) {
     l.count += w.at[p].counts;
-    l.feet += w.at[p].counts && w.at[p].wall;
+    l.feet += w.at[p].counts && has_foot(s, &w.at[p]);
+    l.walls += w.at[p].counts && w.at[p].wall;
   }
   const size_t cells = b->n + l.count;
   l.points = measure_alloc(3 * (b->n + l.feet), sizeof *l.points);
@@ -69,24 +91,23 @@ static struct lines make_lines(const struct shape *s) {
   l.friction = measure_alloc(cells, sizeof *l.friction);
   l.gap = measure_alloc(cells, sizeof *l.gap);
   memcpy(l.points, b->x, 3 * b->n * sizeof *l.points);
-  const double dynamics = radius_dynamics(s->header);
   size_t line = 0, foot = b->n;
   for (size_t p = 0; p < w.count; p++) {
     const struct network_contact *c = &w.at[p];
     if (!c->counts)
       continue;
+    const bool own = has_foot(s, c);
     l.ends[2 * line] = (int64_t)c->i;
-    l.ends[2 * line + 1] = (int64_t)(c->wall ? foot : c->j);
+    l.ends[2 * line + 1] = (int64_t)(own ? foot : c->j);
     l.offsets[line] = 2 * (int64_t)(line + 1);
     l.normal[b->n + line] = c->normal;
     l.friction[b->n + line] = vec3_norm(c->friction);
     l.gap[b->n + line] = s->scale * c->gap;
     line++;
-    if (!c->wall)
+    if (!own)
       continue;
-    const double r = dynamics > 0 ? dynamics : s->source->r[c->i];
     memcpy(l.points + 3 * foot, b->x + 3 * c->i, 3 * sizeof *l.points);
-    vec3_axpy(-s->scale * (r + c->gap), c->n, l.points + 3 * foot);
+    vec3_axpy(-s->scale * way(s, c), c->n, l.points + 3 * foot);
     foot++;
   }
   network_free(&w);
@@ -165,10 +186,11 @@ void write_vtp(FILE *out, const struct write_frame *f,
     for (int a = NORMAL; a < ARRAYS; a++)
       write_vtk_element(out, &arrays[a], &offset);
     fprintf(out, "</CellData>\n");
-    shape_add(f->shape,
-              "%zu contacts as lines, %zu of them to walls, at the radius of "
-              "the dynamics",
-              l.count, l.feet);
+    shape_add(
+        f->shape,
+        "%zu contacts as lines, %zu of them to walls, %zu across periodic "
+        "sides, at the radius of the dynamics",
+        l.count, l.walls, l.feet - l.walls);
   }
   fprintf(out, "</Piece>\n</PolyData>\n"
                "<AppendedData encoding=\"raw\">\n_");

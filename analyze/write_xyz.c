@@ -16,7 +16,10 @@ void write_xyz(FILE *out, const struct write_frame *f,
   numbers_write(out, ' ', 9, lattice);
   fputs("\" Origin=\"", out);
   numbers_write(out, ' ', 3, origin);
-  fputs("\" pbc=\"F F F\" "
+  fputs("\" pbc=\"", out);
+  for (int k = 0; k < 3; k++)
+    fprintf(out, k ? " %c" : "%c", f->shape->wraps[k] ? 'T' : 'F');
+  fputs("\" "
         "Properties=species:S:1:pos:R:3:radius:R:1:velo:R:3:id:I:1:mass:R:1:"
         "angular_velocity:R:3 Time=",
         out);

@@ -221,6 +221,82 @@ check 'all frames, a folder each' hand --format freezethaw --frames all \
 check 'all frames: are there' cmp -s "$T/case-00/spheres_positions.txt" \
   "$T/case/spheres_positions.txt"
 
+# --- periodic sides ----------------------------------------------------------
+"$B/settle" --quiet --periodic xy --count 40 --time 1.5 >"$T/periodic"
+all=$(union "$T/periodic")
+for format in positions csv xyz lammps vtp geo stl freezethaw; do
+  hand --format $format --output "$T/one" "$T/periodic"
+  near "periodic: $format states all that is in the box" \
+    "$(stated 'solid fraction')" "$all" 1e-11
+  rm -rf "$T/one"
+done
+hand --format csv "$T/periodic" >"$T/one.csv"
+check 'periodic: csv has each sphere once' [ "$(wc -l <"$T/one.csv")" = 41 ]
+hand --format csv --images "$T/periodic" >"$T/all.csv"
+near 'periodic: its copies fill the box' "$(union --box 0,1,0,1,0,1 \
+  "$T/all.csv")" "$all" 1e-12
+check 'periodic: copies are whole periods away' awk -F , '
+  BEGIN {n = 0}
+  function off(a, b) {a -= b; a -= sprintf("%.0f", a); return a < 0 ? -a : a}
+  FNR == NR {if (FNR > 1) {x[n] = $3; y[n] = $4; z[n++] = $5}; next}
+  FNR > 1 {for (i = 0; i < n; i++)
+      if (off($3, x[i]) < 1e-12 && off($4, y[i]) < 1e-12 && $5 == z[i]) break
+    if (i == n) bad = 1; else if ($3 != x[i] || $4 != y[i]) moved++}
+  END {exit bad || !(moved > 5)}' "$T/one.csv" "$T/all.csv"
+check 'periodic: xyz has the cell' grep -q \
+  '^Lattice="1 0 0 0 1 0 0 0 [0-9.]*" Origin="0 0 [-0-9.e]*" pbc="T T F"' \
+  <(hand --format xyz "$T/periodic")
+check 'periodic: and none where there are copies' grep -q 'pbc="F F F"' \
+  <(hand --format xyz --images "$T/periodic")
+hand --format lammps "$T/periodic" >"$T/dump"
+check 'periodic: lammps has the cell' [ "$(sed -n 7,9p "$T/dump")" = \
+  'ITEM: BOX BOUNDS pp pp ff
+0 1
+0 1' ]
+refuse 'copies in a dump' 2 '--images: not for --format lammps' \
+  --format lammps --images "$T/periodic"
+refuse 'copies in a network' 2 '--network: expected no --images' \
+  --format vtp --network --images "$T/periodic"
+freezing 'periodic: freezethaw' "$T/periodic"
+near 'periodic: the solver gets it all' "$(union --box \
+  "0,$l1,0,$l2,0,$l1" "$T/solver.csv")" "$all" 1e-10
+hand --format stl --merged --cells 40 "$T/periodic" >"$T/stl"
+check 'periodic: merged within the bound' awk -v d="$(stated 'that is')" \
+  -v b="$(stated '(step\/r)^2\/3 =')" \
+  'BEGIN {exit !(b > 0 && b < 0.04 && d < b && -d < b)}'
+# contacts across the sides: lines as long as two spheres that touch
+hand --format vtp --network "$T/periodic" >"$T/vtp"
+sides=$(sed -n 's/.* \([0-9]*\) across periodic sides.*/\1/p' "$T/said")
+check "periodic: $sides contacts across the sides" [ "$sides" -gt 3 ]
+data=$(grep -abo '<AppendedData encoding="raw">' "$T/vtp" | cut -d : -f 1)
+array() { # OFFSET TYPE: of the file's appended part, a number a line
+  local at=$((data + 31 + $1))
+  local bytes
+  bytes=$(od -An -j $at -N 8 -tu8 "$T/vtp")
+  od -An -v -w8 -j $((at + 8)) -N $((bytes)) -t"$2" "$T/vtp"
+}
+ends=$(sed -n '/<Lines>/,/<\/Lines>/s/.*"connectivity".*offset="\([0-9]*\)".*/\1/p' \
+  "$T/vtp")
+check 'periodic: no line is longer than two spheres' awk '
+  FNR == NR {x[FNR - 1] = $1; next} {end[n++] = $1}
+  END {for (k = 0; k < n; k += 2) {d = 0
+    for (m = 0; m < 3; m++) d += (x[3 * end[k] + m] - x[3 * end[k + 1] + m]) ^ 2
+    if (!(d <= 0.2 ^ 2)) bad = 1; if (d > 0.18 ^ 2) long++}
+    exit bad || !(long > 20)}' <(array 0 f8) <(array "$ends" d8)
+# a sphere on a side, and a box that is no whole period long
+parts() { # as it is said of voxels
+  sed -n 's/.*make \([0-9]*\) solid parts* and \([0-9]*\) pore.*/\1 \2/p' \
+    "$T/said"
+}
+awk '/^[0-9]/ {if (n++) next; $2 = 0; $3 = 0; $4 = 0.5} {print}' FS='\t' \
+  OFS='\t' <(unsealed "$T/periodic") >"$T/corner"
+hand --format raw --cells 20 "$T/corner" >"$T/raw"
+check "periodic: four quarters are one solid: $(parts)" [ "$(parts)" = '1 1' ]
+hand --format palabos --cells 20 "$T/corner" >"$T/raw"
+check "periodic: and turned: $(parts)" [ "$(parts)" = '1 1' ]
+hand --format raw --cells 22,20,20 --box 0,1.1,0,1,0,1 "$T/corner" >"$T/raw"
+check "periodic: but not in part of a period: $(parts)" [ "$(parts)" = '2 1' ]
+
 # --- voxels for others -------------------------------------------------------
 hand --format raw --binary --cells 7,6,5 "$T/bed" >"$T/raw"
 said=$(tail -n 1 "$T/said")
@@ -253,10 +329,6 @@ refuse 'palabos: no numbers' 2 '--distance: not for --format palabos' \
 
 # parts: two spheres that touch and one apart; a box around a sphere has an
 # inside and an outside
-parts() {
-  sed -n 's/.*make \([0-9]*\) solid parts* and \([0-9]*\) pore.*/\1 \2/p' \
-    "$T/said"
-}
 printf 'x,y,z,r\n.25,.5,.5,.2\n.64,.5,.5,.2\n.25,.2,.2,.1\n' >"$T/three.csv"
 for what in '' --binary --distance; do
   hand --format raw --cells 50 $what "$T/three.csv" >/dev/null
@@ -370,7 +442,7 @@ check 'walls: palabos turns them, too' [ "$(od -An -v -w1 -tu1 "$T/raw" | awk '
   "$(cat "$T/text")" ]
 # a tube in the place of the side walls, and one that leans with an end across,
 # of a few spheres on the floor
-awk '/^[0-9]/ && ++n > 25 {next} {print}' "$T/bed" >"$T/small"
+unsealed "$T/bed" | awk '/^[0-9]/ && ++n > 25 {next} {print}' >"$T/small"
 sed '/^# wall=/d; s/^# model=.*/&\n# wall=0 0 0 0 0 -1\n# cylinder=0.5 0.5 7 0 0 1 0.5/' \
   "$T/small" >"$T/tube"
 sed '/^# wall=/d; s/^# model=.*/&\n# cylinder=0.5 0.5 0 0.6 0 0.8 0.4\n# wall=0.5 0.5 0.1 -0.6 0 -0.8/' \

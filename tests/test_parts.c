@@ -8,7 +8,8 @@
 #include "check.h"
 #include "geometry/parts.h"
 
-static size_t flood(const size_t n[3], const bool *solid, bool kind) {
+static size_t flood(const size_t n[3], const bool around[3], const bool *solid,
+                    bool kind) {
   const size_t all = n[0] * n[1] * n[2];
   bool *seen = calloc(all, sizeof *seen);
   size_t *stack = calloc(all, sizeof *stack), parts = 0;
@@ -25,9 +26,11 @@ static size_t flood(const size_t n[3], const bool *solid, bool kind) {
       const size_t step[3] = {1, n[0], n[0] * n[1]};
       for (int k = 0; k < 6; k++) {
         const int axis = k / 2;
-        if (k % 2 ? at[axis] + 1 == n[axis] : at[axis] == 0)
+        const bool last = k % 2 ? at[axis] + 1 == n[axis] : at[axis] == 0;
+        if (last && !around[axis])
           continue;
-        const size_t next = k % 2 ? q + step[axis] : q - step[axis];
+        const size_t way = step[axis] * (last ? n[axis] - 1 : 1);
+        const size_t next = (k % 2 != last) ? q + way : q - way;
         if (!seen[next] && solid[next] == kind) {
           seen[next] = true;
           stack[count++] = next;
@@ -40,9 +43,10 @@ static size_t flood(const size_t n[3], const bool *solid, bool kind) {
   return parts;
 }
 
-static void grid(const size_t n[3], const bool *solid, size_t count[2]) {
+static void grid(const size_t n[3], const bool around[3], const bool *solid,
+                 size_t count[2]) {
   struct parts *p = NULL;
-  CHECK(parts_open(&p, n[0], n[1]) == GSL_SUCCESS);
+  CHECK(parts_open(&p, n[0], n[1], around) == GSL_SUCCESS);
   for (size_t row = 0; row < n[1] * n[2]; row++)
     CHECK(parts_row(p, solid + row * n[0]) == GSL_SUCCESS);
   parts_count(p, count);
@@ -52,7 +56,9 @@ static void grid(const size_t n[3], const bool *solid, size_t count[2]) {
 int main(void) {
   gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
   size_t most = 0;
-  for (int m = 0; m < 300; m++) {
+  static const bool open[3];
+  for (int m = 0; m < 600; m++) {
+    const bool around[3] = {m >> 0 & 1, m >> 1 & 1, m >> 2 & 1};
     const size_t n[3] = {1 + gsl_rng_uniform_int(rng, 12),
                          1 + gsl_rng_uniform_int(rng, 12),
                          1 + gsl_rng_uniform_int(rng, 12)};
@@ -61,9 +67,9 @@ int main(void) {
     for (size_t q = 0; q < n[0] * n[1] * n[2]; q++)
       solid[q] = gsl_rng_uniform(rng) < share;
     size_t count[2];
-    grid(n, solid, count);
-    CHECK(count[true] == flood(n, solid, true));
-    CHECK(count[false] == flood(n, solid, false));
+    grid(n, around, solid, count);
+    CHECK(count[true] == flood(n, around, solid, true));
+    CHECK(count[false] == flood(n, around, solid, false));
     most = count[true] > most ? count[true] : most;
   }
   CHECK(most > 100);
@@ -82,7 +88,7 @@ int main(void) {
   const size_t flat[3][3] = {{7, 7, 1}, {7, 1, 7}, {1, 7, 7}};
   for (int k = 0; k < 3; k++) {
     size_t count[2];
-    grid(flat[k], cells, count);
+    grid(flat[k], open, cells, count);
     CHECK(count[true] == 1 && count[false] == 1);
   }
   gsl_rng_free(rng);
