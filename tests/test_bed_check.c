@@ -69,6 +69,14 @@ static void test_crowd(void) {
   CHECK(bed_find_crowd((double[3]){0}, &b, &c) == GSL_SUCCESS && c.pairs == 2);
   CHECK(c.i == 20 && c.j == 21);
   CHECK_REL(c.expected, 0.024, 1e-12);
+  /* of two that are as close the first, to the last bit */
+  b.r[24] = b.r[25] = b.r[26] = b.r[27] = 0.125;
+  b.x[3 * 24] = 32;
+  b.x[3 * 25] = b.x[3 * 24] + 0x1p-9;
+  b.x[3 * 26] = 64;
+  b.x[3 * 27] = b.x[3 * 26] + 0x1p-9;
+  CHECK(bed_find_crowd((double[3]){0}, &b, &c) == GSL_SUCCESS && c.pairs == 4);
+  CHECK(c.i == 24 && c.j == 25 && c.distance == 0x1p-9);
   b.x[3 * 3] = GSL_NAN;
   c.pairs = 99;
   CHECK(bed_find_crowd((double[3]){0}, &b, &c) == GSL_EINVAL && c.pairs == 99);

@@ -385,6 +385,17 @@ static void test_tables(void) {
           (c->per_time || !c->alloc));
     integrate_free(it);
   }
+  /* the paper's own, and those that its figures were drawn with */
+  static const struct {
+    const char *name;
+    double tol;
+  } usual[] = {{"paper", 0.1}, {"standard", 5e-4}, {"predictive", 5e-4}};
+  for (size_t k = 0; k < sizeof usual / sizeof *usual; k++) {
+    struct integrate_options opt = {.method = "merson",
+                                    .control = usual[k].name};
+    integrate_defaults(&opt);
+    CHECK(opt.tol == usual[k].tol);
+  }
   for (const struct integrate_method *m = integrate_methods; m->name; m++) {
     struct integrate_options opt = {.method = m->name};
     integrate_defaults(&opt);
