@@ -143,22 +143,34 @@ INSTANTS ?= 200
 torture: all ## kill runs and go on, let each call fail, INSTANTS=200 (an hour)
 	B=$(B) tests/torture.sh $(INSTANTS)
 
+valgrind: all ## small scenes of every method, and the verbs, under valgrind
+	B=$(B) tests/valgrind.sh
+
 MUTANTS ?= 300
 mutants: ## break the sources at MUTANTS=300 places, and see the tests notice (hours)
 	B=$(B) tests/mutants.sh $(MUTANTS)
 
-fuzz: $(B)/fuzz/readers ## feed random files to the readers, FUZZ_SECONDS=60 (clang)
+$(B)/fuzz/programs: tests/fuzz_programs.c
+	@mkdir -p $(@D)
+	$(CC) -std=c11 -O2 $(WARNINGS) $< -o $@
+
+fuzz: $(B)/fuzz/readers fuzz-programs ## feed random files to the readers (clang), and options, FUZZ_SECONDS=60
 	@mkdir -p $(B)/fuzz/corpus
 	$(B)/fuzz/readers -max_total_time=$(FUZZ_SECONDS) -timeout=10 -verbosity=0 -print_final_stats=1 \
 	  -rss_limit_mb=1024 -max_len=4096 -dict=tests/fuzz_readers.dict \
 	  -artifact_prefix=$(B)/fuzz/ $(B)/fuzz/corpus tests/corpus tests/cases
+
+fuzz-programs: $(B)/fuzz/programs ## random options and damaged checkpoints for the programs, with sanitizers
+	$(MAKE) $(B)/sanitize/settle $(B)/sanitize/analyze B=$(B)/sanitize \
+	  CFLAGS='$(SANITIZED)'
+	B=$(B)/sanitize tests/fuzz_programs.sh $(B)/fuzz/programs $(FUZZ_SECONDS)
 
 # What is needed, and what some tests use where it is there; then what a developer
 # has besides.
 PACKAGES := gcc make libgsl-dev gnuplot-nox fonts-dejavu-core
 PACKAGES_TESTS := groff-base xz-utils zstd
 PACKAGES_DEVELOPER := clang libomp-dev clang-tidy clang-format cppcheck \
-  shellcheck strace ffmpeg parallel slurm-wlm liblammps-dev
+  shellcheck strace valgrind ffmpeg parallel slurm-wlm liblammps-dev
 has = command -v $(1) >/dev/null
 apt = $$([ "$$(id -u)" = 0 ] || echo sudo) apt-get
 define install_packages
@@ -233,4 +245,4 @@ help: ## this list
 
 include plots/rules.mk plots/captions.mk settle/lammps/lammps.mk
 
-.PHONY: all check check-quick clients sanitize tidy torture mutants fuzz deps deps-developer demo man install uninstall clean help
+.PHONY: all check check-quick clients sanitize tidy torture valgrind mutants fuzz fuzz-programs deps deps-developer demo man install uninstall clean help
