@@ -10,6 +10,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_randist.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include "check.h"
@@ -17,6 +18,7 @@
 #include "oracle.h"
 #include "steppers/stiffness.h"
 #include "model/travel.h"
+#include "program/run_watch.h"
 #include "sample.h"
 
 /* --- how far a step reaches ------------------------------------------------*/
@@ -428,6 +430,66 @@ static void test_travel(void) {
   CHECK(travel_time(0, 0, 1) == GSL_POSINF);
 }
 
+static size_t warnings_of(const struct run_watch *w) {
+  char line[100];
+  size_t count = SIZE_MAX;
+  FILE *f = tmpfile();
+  if (!f)
+    abort();
+  run_watch_stats(w, f, 0);
+  rewind(f);
+  while (fgets(line, sizeof line, f))
+    sscanf(line, "warnings\t%zu", &count);
+  fclose(f);
+  return count;
+}
+
+/* Energy from nowhere, or into it where none can be lost: warned of beyond 1 %
+   of what has become motion, once. */
+static void test_energy(void) {
+  const struct {
+    double now; /* 1 at the start, all of it from gravity, and none left */
+    bool kept;
+    size_t warnings;
+  } cases[] = {{1.0099, false, 0}, {1.0102, false, 1}, {0.9901, true, 0},
+               {0.9899, true, 1},  {0.9, false, 0},    {1.0099, true, 0}};
+  struct scene scene = scene_default();
+  struct bed b;
+  CHECK(bed_alloc(&b, 1) == GSL_SUCCESS);
+  b.r[0] = 0.1;
+  struct integrate_options o = {.method = "rkc", .hinit = 1e-3};
+  integrate_defaults(&o);
+  struct motion *m = NULL;
+  CHECK(motion_alloc(&m, &scene, &b, &o,
+                     &(struct dynamics_options){.threads = 1},
+                     0) == GSL_SUCCESS);
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+    struct run_watch *w = NULL;
+    CHECK(run_watch_alloc(&w, &(struct run_watch_options){
+                                  .integrate = &o,
+                                  .integrator = m->integrator,
+                                  .whose = "the test's",
+                                  .nobody = cases[k].kept ? "e = 1" : NULL,
+                                  .quiet = true}) == GSL_SUCCESS);
+    CHECK(run_watch_energy(w, 1, 0, 0) == GSL_SUCCESS);
+    CHECK(run_watch_energy(w, 0, 1, 0) == GSL_SUCCESS);
+    run_watch_tell_energy(w);
+    CHECK(warnings_of(w) == 0);
+    for (int twice = 0; twice < 2; twice++) {
+      CHECK(run_watch_energy(w, 0, cases[k].now, 0) == GSL_SUCCESS);
+      run_watch_tell_energy(w);
+      CHECK(warnings_of(w) == cases[k].warnings);
+    }
+    const double gain = fmax(0, cases[k].now - 1) / cases[k].now;
+    CHECK_CLOSE(run_watch_energy_share(w), gain, 4 * DBL_EPSILON);
+    CHECK(run_watch_energy(w, GSL_NAN, 0, 0) == GSL_ERANGE);
+    run_watch_free(w);
+  }
+  motion_free(m);
+  bed_free(&b);
+  scene_free(&scene);
+}
+
 int main(void) {
   gsl_set_error_handler_off();
   gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
@@ -442,6 +504,7 @@ int main(void) {
   test_bits("verlet", SCENE_FRICTION);
   test_bits("rk8pd", SCENE_BASIC);
   test_travel();
+  test_energy();
   gsl_rng_free(rng);
   return check_done();
 }

@@ -153,6 +153,9 @@ key steps_with_deep_overlap 'x > 10'
 run settle --count 1 --kappa 30 --lmax 0.3 --drop 3 --time 0.9
 warned 1 "overlaps.*$(page Penetration)"
 key overlap_deepest 'x > 1'
+# Merson's third and fourth stage see 0.7 of the jump, 10 exp(-15) m/s^2
+run settle --count 1 --time 0.1 --method merson --tol 1e-6
+warned 1 "errors of $(awk 'BEGIN {printf "%.2g", 0.7 * 10 * exp(-15)}') m/s\^2,"
 # what it advises is enough
 for options in '--kappa 30' '--control standard --tol 1e-9' \
   '--method merson --tol 1e-6' '--kappa 60 --f0 50 --reltol 1e-5'; do
@@ -176,6 +179,14 @@ awk -F '\t' -v OFS='\t' '/^[0-9]/ && !done {$4 = 0.03; done = 1} {print}' \
 run settle --scene "$T/half" --time 0.02 --kappa 40
 warned 2 "t=0: sphere 0 overlaps by 0.70 radii.*$(page Penetration)" \
   "$(page 'The cut at lmax')"
+
+# by 0.48 and by 0.52 radii: 0.5 is deep
+for z in 0.052 0.048; do
+  awk -F '\t' -v OFS='\t' -v z=$z '/^[0-9]/ && !done {$4 = z; done = 1} {print}' \
+    <(unsealed "$T/start") >"$T/half"
+  run settle --scene "$T/half" --time 0
+  warns "$([[ $z == 0.048 ]] && echo 1 || echo 0)"
+done
 
 # --- energy -------------------------------------------------------------------
 run settle "${elastic[@]}" --method rkc --step 1e-3 --time 1
