@@ -420,6 +420,41 @@ static void test_first_sphere(void) {
   CHECK_REL(way[0], (10 + 100 * 0.1) / 101, 101 * DBL_EPSILON);
 }
 
+/* A wall 0.05 m away is within reach by the speed towards it, which may grow by
+   30 %; a sphere that goes away comes no nearer, and keeps its gap. */
+static void test_walls(void) {
+  const struct {
+    double v, h, gap;
+    bool near;
+  } cases[] = {{-1, 0.0305, 0.01, false}, {-1, 0.031, 0.01, true},
+               {1, 0.031, 0.01, false},   {1, 0.031, 0.0501, true},
+               {0, 1, 0.0499, false},     {0, 1, 0.0501, true}};
+  struct scene scene = scene_default();
+  scene.model = SCENE_BASIC;
+  struct bed bed;
+  struct contact_list *l = NULL;
+  CHECK(scene_add_wall(&scene, (double[]){0, 0, 0}, (double[]){0, 0, -1}) ==
+        GSL_SUCCESS);
+  CHECK(bed_alloc(&bed, 1) == GSL_SUCCESS);
+  bed.r[0] = 0.1;
+  bed.m[0] = 1;
+  CHECK(contact_list_alloc(&l, &scene, &bed, 1, NULL) == GSL_SUCCESS);
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+    double y[6] = {0, 0, 0.15, 0, 0, cases[k].v};
+    const struct contact_reach reach = {y, cases[k].h, cases[k].gap};
+    struct contact_list *near = part_of(l), *far = part_of(l);
+    CHECK(contact_list_update(l, y) == GSL_SUCCESS && l->wall_contacts == 1);
+    CHECK(contact_subset_split(near, far, l, &reach) == GSL_SUCCESS);
+    CHECK(near->wall_contacts == cases[k].near &&
+          far->wall_contacts == !cases[k].near);
+    contact_list_free(near);
+    contact_list_free(far);
+  }
+  contact_list_free(l);
+  bed_free(&bed);
+  scene_free(&scene);
+}
+
 /* A list holds for states within half of its skin of where it was made. */
 static void test_holds(gsl_rng *rng) {
   gsl_rng_set(rng, 1);
@@ -447,6 +482,7 @@ int main(void) {
     test_split(rng, seed);
     test_islands(rng, seed);
   }
+  test_walls();
   test_holds(rng);
   test_threads(rng);
   test_shared_split(rng);
