@@ -16,6 +16,7 @@
 #include "limit.h"
 #include "dynamics/level.h"
 #include "dynamics/motion.h"
+#include "dynamics/trace.h"
 #include "sample.h"
 #include "steppers/hermite.h"
 
@@ -681,9 +682,57 @@ static void test_contract(void) {
   sample_free(&s);
 }
 
+/* The trace of one row: cubics between the ends of its steps, without what was
+   erased or cut. Rates are 0, so each cubic is even about its middle. */
+static void test_trace(void) {
+  struct sample s = sample_new(SCENE_BASIC, 1);
+  s.bed.m[0] = 1;
+  struct contact_list *list = NULL;
+  struct trace *r = NULL;
+  CHECK(contact_list_alloc(&list, &s.scene, &s.bed, 1, NULL) == GSL_SUCCESS);
+  CHECK(trace_alloc(&r, list) == GSL_SUCCESS);
+  double start[6] = {0}, still[6] = {0}, end[6] = {0}, y[6] = {0};
+  struct level l = {.stride = 6,
+                    .rows = 1,
+                    .y0 = end,
+                    .f0 = still,
+                    .refined = (bool[]){false},
+                    .whole = (uint32_t[]){0}};
+  const struct {
+    double t, x;
+    bool erased;
+  } ends[] = {{1, 1, false}, {1.5, 99, true}, {2, 4, false}, {3, 5, false}};
+  size_t steps = 0;
+  for (size_t k = 0; k < 4; k++) {
+    const size_t mark = trace_mark(r);
+    end[0] = ends[k].x;
+    CHECK(trace_append(r, &l, ends[k].t) == GSL_SUCCESS);
+    CHECK(trace_mark(r) == mark + 1);
+    if (ends[k].erased)
+      trace_erase(r, mark, mark + 1);
+  }
+  trace_steps(r, &steps);
+  CHECK(steps == 3);
+  const double times[] = {0.5, 1, 1.5, 2, 2.5, 3},
+               want[] = {0.5, 1, 2.5, 4, 4.5, 5};
+  for (size_t k = 0; k < 6; k++) {
+    trace_at(r, 0, start, still, times[k], y);
+    CHECK_CLOSE(y[0], want[k], 8 * DBL_EPSILON);
+  }
+  trace_cut(r, 3); /* what is beyond the last end stays as it is */
+  trace_at(r, 0, start, still, 2.5, y);
+  CHECK_CLOSE(y[0], 5, 8 * DBL_EPSILON);
+  l.refined = (bool[]){true};
+  CHECK(trace_append(r, &l, 4) == GSL_SUCCESS && trace_mark(r) == 3);
+  trace_free(r);
+  contact_list_free(list);
+  sample_free(&s);
+}
+
 int main(void) {
   limit_cpu(1000); /* a loop without end is a failure too */
   gsl_set_error_handler_off();
+  test_trace();
   test_free_fall();
   test_momentum(SCENE_BASIC);
   test_momentum(SCENE_FRICTION);
