@@ -61,7 +61,7 @@ static bool parse_list(const char *text, struct option_list *list) {
 }
 
 static const char *set_list(struct option_spec *o, const char *text) {
-  struct option_list list;
+  struct option_list list = {0}; /* it goes into checkpoints as a whole */
   if (!parse_list(text, &list) || (double)list.count < o->least ||
       (double)list.count > o->most) {
     if (o->least == o->most)
