@@ -143,6 +143,9 @@ INSTANTS ?= 200
 torture: all ## kill runs and go on, let each call fail, INSTANTS=200 (an hour)
 	B=$(B) tests/torture.sh $(INSTANTS)
 
+load: all ## 10,000 runs in a row, 64 at once, one for an hour
+	B=$(B) tests/load.sh
+
 valgrind: all ## small scenes of every method, and the verbs, under valgrind
 	B=$(B) tests/valgrind.sh
 
@@ -245,4 +248,4 @@ help: ## this list
 
 include plots/rules.mk plots/captions.mk settle/lammps/lammps.mk
 
-.PHONY: all check check-quick clients sanitize tidy torture valgrind mutants fuzz fuzz-programs deps deps-developer demo man install uninstall clean help
+.PHONY: all check check-quick clients sanitize tidy torture load valgrind mutants fuzz fuzz-programs deps deps-developer demo man install uninstall clean help
