@@ -179,13 +179,13 @@ angle 1 9 2 3 4 5
 full 1 9 2 0.5 3 4 5
 END
 # without a style by the number of words, three of which may be images
-for row in '1 2 2 2.5 3 4 5' '1 2 2 2.5 3 4 5 0 0 0' '1 2 3 4 5' '1 2 3 4 5 0 0 0'; do
+for row in '1 2 2.5 2 3 4 5' '1 2 2.5 2 3 4 5 0 0 0' '1 2 3 4 5' '1 2 3 4 5 0 0 0'; do
   printf '%s\n' 'LAMMPS data file' '' '1 atoms' '2 atom types' '' Atoms '' "$row" \
     >"$T/style"
-  radius=()
-  [[ $row == *2.5* ]] || radius=(--radius 1)
+  radius=() r=1.25
+  [[ $row == *2.5* ]] || radius=(--radius 1) r=1
   "$B/analyze" export --quiet --format csv "${radius[@]}" "$T/style" >"$T/out"
-  check "no style: $row" test "$(tail -n 1 "$T/out" | cut -d , -f 2-6)" = 1,3,4,5,1
+  check "no style: $row" test "$(tail -n 1 "$T/out" | cut -d , -f 2-6)" = 1,3,4,5,$r
 done
 reads no-style.data '0 3.90625'
 refuses full-or-sphere.data '8: 7 fields, and no atom style: expected'
