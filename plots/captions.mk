@@ -15,6 +15,7 @@ SHOWN := bench budget bulk fig4.3 friction gr growth handover hardening hardness
   stability-map stability-regions stability-steps stability-tunnel \
   stability-vibration stability-wrong-bed tubes walls
 SHOWN_AS := \
+  beads-two=real-two \
   mixtures-fraction=mixtures \
   precision-bounce=precision-bounce-150-inelastic-time-evaluations \
   precision-impacts=impacts \

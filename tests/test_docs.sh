@@ -176,6 +176,8 @@ shorter() { # COMMAND
   *' --cells 200 '*) echo "${1/--cells 200/--cells 20}" ;;
   # 800 hard spheres: 14 s to 8 s
   'settle --overlap 0.003 '*) echo "${1/ --count 800/ --count 800 --time 0.001}" ;;
+  # hard beds to rest: up to 13 s
+  *' --until-rest --time 20 '*) echo "${1/ --until-rest --time 20/ --time 0.001}" ;;
   # four beds of 200 spheres each
   'sweep runs.tsv '*) echo "sweep --settle '--count 40 --time 0.1' ${1#sweep }" ;;
   # other machines

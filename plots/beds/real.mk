@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Five beds as people have them, beside published figures; a minute of CPU time.
+# Five beds as people have them, beside published figures; two minutes of CPU time.
 REAL_NAMES := glass steel sand two periodic
 REAL_SEEDS := 1 2 $(if $(QUICK),,3)
 REAL_BEDS := $(foreach n,$(REAL_NAMES),$(REAL_SEEDS:%=$(D)/real/$(n)-%.bed))

@@ -18,7 +18,8 @@ declare -A options=(
   [sand]='--sizes lognormal:0.00025,0.3 --density 2650 --periodic xy
     --base 0.0046,0.0046 --count 400 --vmin 6e-5'
   [two]='--sizes mix:0.002*0.7,0.0005*0.3 --shares volume --density 2500
-    --periodic xy --base 0.014,0.014 --count 450 --vmin 9e-5'
+    --periodic xy --base 0.0125,0.0125 --count 450 --fill random
+    --vmin 9e-5'
   [periodic]='--radius 0.001 --density 2500 --periodic xy --base 0.01,0.01
     --count 300 --friction 0.174 --vmin 1.25e-4'
 )

@@ -25,7 +25,8 @@ metre = 0
 caption = ""
 set colorbox user origin (exists("value_label") ? 0.8 : 0.82),0.25 size 0.03,0.5
 if (exists("value_label")) {
-  set cblabel value_label offset 1,0
+  # above, since ticks of small beds take the room beside
+  set label 3 value_label at screen 0.985,0.8 right front
 } else {
   set cblabel "start height (order)" offset -4.5,0
   set cbtics ("lowest" 0, "highest" 1)
