@@ -470,6 +470,36 @@ static void test_history(gsl_rng *rng, enum scene_model model, size_t n,
   sample_free(&s);
 }
 
+/* A pair at lmax to the last bit is a contact, in its slopes too: one beyond is
+   none. Its force grows by kappa F for each metre that it is closer. */
+static void test_last_contact(void) {
+  struct sample s = {.scene = scene_default()};
+  s.scene.model = SCENE_BASIC;
+  s.scene.law.restitution = 1;
+  s.scene.law.kappa = 10;
+  CHECK(bed_alloc(&s.bed, 2) == GSL_SUCCESS);
+  for (size_t i = 0; i < 2; i++) {
+    s.bed.r[i] = 0.125;
+    s.bed.m[i] = 1;
+  }
+  s.bed.x[3] = 0.375;
+  for (int beyond = 0; beyond < 2; beyond++) {
+    s.scene.law.lmax = 0.125 * (1 - beyond * DBL_EPSILON);
+    struct dynamics *d = new_dynamics(&s, &cells);
+    double y[12], rates_at[12], dfdt[12], slope[144];
+    dynamics_pack(d, &s.bed, y);
+    CHECK(dynamics_rhs(0, y, rates_at, d) == GSL_SUCCESS);
+    CHECK(dynamics_jacobian(0, y, slope, dfdt, d) == GSL_SUCCESS);
+    const double force = beyond ? 0 : s.scene.law.f0 * exp(-10 * 0.125);
+    /* of the first one, x' ' by x, and that of the other's x */
+    CHECK_CLOSE(slope[3 * 12 + 0], -10 * force, 1e-13 * force);
+    CHECK_CLOSE(slope[3 * 12 + 6], 10 * force, 1e-13 * force);
+    CHECK_CLOSE(rates_at[3] - s.scene.gravity[0], -force, 1e-14 * force);
+    dynamics_free(d);
+  }
+  sample_free(&s);
+}
+
 /* A skin as wide as lets rebuilding and idle pairs cost the same, whatever the
    speed. All move by d in each evaluation: a skin s lasts for s/(2 d) of them,
    of which idle pairs take 3 s/(2 r + lmax + s), and a list costs four. */
@@ -1318,6 +1348,7 @@ static void test_kernel(gsl_rng *rng, unsigned long kernel) {
   test_threads(rng);
   test_stage(rng);
   test_skin(rng);
+  test_last_contact();
   for (int m = 0; m < 3; m++) {
     test_history(rng, models[m], 70, 360, kernel == 0);
     test_history(rng, models[m], 1100, 24, kernel == 0);
