@@ -394,20 +394,38 @@ static int build(struct contact_list *l, const double *y, double way) {
   return GSL_SUCCESS;
 }
 
-/* Whether y is sound, and how far any sphere is from its reference, squared. */
-static bool measure_way(const struct contact_list *l, const double *y,
-                        double *squared) {
-  double furthest = 0;
+/* Whether rows [from, to) of y are sound; raises the furthest that any sphere
+   is from its reference, squared. */
+static bool measure_some(const struct contact_list *l, const double *y,
+                         size_t from, size_t to, double *furthest) {
+  double most = *furthest;
   bool sound = true; /* a maximum keeps a NaN out */
-#pragma omp parallel for num_threads((int)l->threads) schedule(static)         \
-    reduction(max : furthest) reduction(&& : sound)                            \
-    if (l->rows >= CONTACT_SHARED)
-  for (size_t i = 0; i < l->rows; i++) {
+  for (size_t i = from; i < to; i++) {
     const double *x = y + i * l->stride, *x0 = l->reference + 3 * i;
     const double dx = x[0] - x0[0], dy = x[1] - x0[1], dz = x[2] - x0[2];
     const double moved = dx * dx + dy * dy + dz * dz;
-    furthest = furthest > moved ? furthest : moved;
+    most = most > moved ? most : moved;
     sound = sound && moved == moved;
+  }
+  *furthest = most;
+  return sound;
+}
+
+/* The same of all rows. */
+static bool measure_way(const struct contact_list *l, const double *y,
+                        double *squared) {
+  const size_t rows = l->rows, parts = l->threads;
+  double furthest = 0;
+  bool sound = true;
+  if (rows < CONTACT_SHARED || parts == 1) /* a region of one thread costs */
+    sound = measure_some(l, y, 0, rows, &furthest);
+  else {
+#pragma omp parallel for num_threads((int)parts) schedule(static, 1)           \
+    reduction(max : furthest) reduction(&& : sound)
+    for (size_t p = 0; p < parts; p++)
+      sound = measure_some(l, y, rows * p / parts, rows * (p + 1) / parts,
+                           &furthest) &&
+              sound;
   }
   *squared = furthest;
   return sound;

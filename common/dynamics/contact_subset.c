@@ -387,10 +387,14 @@ int contact_subset_split(struct contact_list *near, struct contact_list *far,
   if (copy_rows(near, from) != GSL_SUCCESS ||
       copy_rows(far, from) != GSL_SUCCESS)
     return GSL_ENOMEM;
-#pragma omp parallel for num_threads(threads)                                  \
-    schedule(static, 1) if (contact_list_size(from) >= WORTH_SHARING)
-  for (int p = 0; p < threads; p++)
-    deal_part(to, from, (size_t)p, reach);
+  if (contact_list_size(from) < WORTH_SHARING || threads == 1)
+    for (int p = 0; p < threads; p++)
+      deal_part(to, from, (size_t)p, reach);
+  else {
+#pragma omp parallel for num_threads(threads) schedule(static, 1)
+    for (int p = 0; p < threads; p++)
+      deal_part(to, from, (size_t)p, reach);
+  }
   for (int k = 0; k < 2; k++) {
     close_gaps(to[k], from);
     to[k]->threads = from->threads;

@@ -247,6 +247,16 @@ static void mark_solved(const struct islands *s, size_t island,
     results->solved[s->row[q]] = true;
 }
 
+/* Solves an island of depth in a thread's own lane, unless it was found as it
+   is. */
+static void solve_new(struct lane *own, size_t depth, size_t island, double t,
+                      double h, struct results *results) {
+  const struct islands *s = &own->level[depth]->islands;
+  struct result *r = &results->of[s->row[s->begin[island]]];
+  if (!all_solved(s, island, results->solved))
+    solve(own, depth, island, t, h, r);
+}
+
 /* Solves the islands that are new or have grown; those of all spheres are
    shared among threads. */
 static int solve_islands(struct lane *lane, size_t depth, double t, double h) {
@@ -258,13 +268,13 @@ static int solve_islands(struct lane *lane, size_t depth, double t, double h) {
     if (!all_solved(s, k, results->solved))
       forget(lane, s, k, results);
   const int lanes = depth == 0 && s->count > 1 ? (int)all->count : 1;
-  (void)lanes; /* without OpenMP */
-#pragma omp parallel for num_threads(lanes) schedule(dynamic) if (lanes > 1)
-  for (size_t k = 0; k < s->count; k++) {
-    struct lane *own = lanes > 1 ? &all->lane[system_thread()] : lane;
-    struct result *r = &results->of[s->row[s->begin[k]]];
-    if (!all_solved(s, k, results->solved))
-      solve(own, depth, k, t, h, r);
+  if (lanes == 1) { /* a region of one thread costs */
+    for (size_t k = 0; k < s->count; k++)
+      solve_new(lane, depth, k, t, h, results);
+  } else {
+#pragma omp parallel for num_threads(lanes) schedule(dynamic)
+    for (size_t k = 0; k < s->count; k++)
+      solve_new(&all->lane[system_thread()], depth, k, t, h, results);
   }
   for (size_t k = 0; k < s->count; k++) {
     const int found = results->of[s->row[s->begin[k]]].status;
@@ -365,16 +375,19 @@ static bool may_be_shorter(int status) {
   return status == GSL_EBADFUNC || status == GSL_FAILURE;
 }
 
-static void accept(struct level *l, double h) {
-  level_accept(l);
-#pragma omp parallel for num_threads((int)l->list->threads)                    \
-    schedule(static) if (l->rows >= CONTACT_SHARED)
-  for (size_t i = 0; i < l->rows; i++) {
+/* What rows want after a step of h. */
+static void want(struct level *l, double h, size_t from, size_t to) {
+  for (size_t i = from; i < to; i++) {
     if (!l->flagged[i])
       l->wanted[i] = wanted_step(h, l->error[i], lengthen);
     l->refined[i] = l->flagged[i];
     l->wanted[i] = GSL_MIN(l->wanted[i], level_row_limit(l, i));
   }
+}
+
+static void accept(struct level *l, double h) {
+  level_accept(l);
+  level_share(l, h, want);
 }
 
 /* Forgets all that was found within the step. */

@@ -285,6 +285,19 @@ static int take_stages(struct level *l, double t, double h,
   return level_rates(l, t + h, l->y1, l->f1);
 }
 
+void level_share(struct level *l, double h,
+                 void (*some)(struct level *l, double h, size_t from,
+                              size_t to)) {
+  const size_t rows = l->rows, parts = l->list->threads;
+  if (rows < CONTACT_SHARED || parts == 1) { /* a region of one thread costs */
+    some(l, h, 0, rows);
+    return;
+  }
+#pragma omp parallel for num_threads((int)parts) schedule(static, 1)
+  for (size_t p = 0; p < parts; p++)
+    some(l, h, rows * p / parts, rows * (p + 1) / parts);
+}
+
 /* Largest of the unknowns [from, stride) of a row by their units. */
 static double largest(const struct level *l, size_t row, size_t from,
                       const double *x) {
@@ -323,11 +336,9 @@ static double travel_error(const struct level *l, size_t row, double h) {
 
 /* The estimate 0.8 (y0 - y1) + 0.4 h (f0 + f1) of each row in units of the
    tolerance. */
-static void estimate_errors(struct level *l, double h) {
+static void estimate_some(struct level *l, double h, size_t from, size_t to) {
   const struct level_setting *s = l->setting;
-#pragma omp parallel for num_threads((int)l->list->threads)                    \
-    schedule(static) if (l->rows >= CONTACT_SHARED)
-  for (size_t i = 0; i < l->rows; i++) {
+  for (size_t i = from; i < to; i++) {
     const size_t at = i * l->stride;
     double e[ROW_SPIN];
     for (size_t c = 0; c < l->stride; c++)
@@ -362,7 +373,7 @@ int level_try(struct level *l, double t, double h) {
     return GSL_ENOMEM;
   status = take_stages(l, t, h, scheme);
   if (status == GSL_SUCCESS)
-    estimate_errors(l, h);
+    level_share(l, h, estimate_some);
   return status;
 }
 

@@ -94,6 +94,11 @@ int level_try(struct level *l, double t, double h);
 void level_accept(struct level *l);
 void level_undo(struct level *l);
 
+/* Calls some for all rows, of which threads share many; h is handed on. */
+void level_share(struct level *l, double h,
+                 void (*some)(struct level *l, double h, size_t from,
+                              size_t to));
+
 /* Finds the islands of the flagged rows for a step of h from t, which is to
    come before their levels are made. GSL_SUCCESS, GSL_ENOMEM. */
 int level_islands(struct level *l, double t, double h);

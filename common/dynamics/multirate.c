@@ -41,9 +41,6 @@ static void count_contacts(struct multirate *m) {
 /* Longest way of a sphere in a step of h (m). */
 static double longest_way(const struct level *l, double h) {
   double most = 0;
-#pragma omp parallel for num_threads((int)l->list->threads) schedule(static)   \
-    reduction(max                                                              \
-              : most) if (l->rows >= CONTACT_SHARED)
   for (size_t i = 0; i < l->rows; i++) {
     const double v = vec3_norm(l->y0 + i * l->stride + ROW_V);
     const double a = vec3_norm(l->f0 + i * l->stride + ROW_V);
