@@ -431,6 +431,30 @@ static void test_header(void) {
   bed_header_free(&h);
 }
 
+/* Across a periodic side, the contact is that with the nearest image: 0.125 m
+   apart, where the spheres themselves are 0.875 m apart. */
+static void test_image(void) {
+  struct scene s = scene_default();
+  struct bed b;
+  struct network w = {0};
+  s.period[0] = 1;
+  CHECK(bed_alloc(&b, 2) == GSL_SUCCESS);
+  for (size_t i = 0; i < 2; i++) {
+    b.r[i] = 0.125;
+    b.m[i] = 1;
+    b.x[3 * i] = i ? 0.9375 : 0.0625;
+  }
+  CHECK(network_find(&w, &s, &b, 0) == GSL_SUCCESS);
+  if (CHECK(w.count == 1)) {
+    const struct network_contact *c = w.at;
+    CHECK(c->i == 0 && c->j == 1 && c->gap == -0.125);
+    CHECK(c->n[0] == 1 && c->n[1] == 0 && c->n[2] == 0);
+  }
+  network_free(&w);
+  bed_free(&b);
+  scene_free(&s);
+}
+
 int main(void) {
   gsl_set_error_handler_off();
   test_against_dynamics(SCENE_BASIC);
@@ -447,5 +471,6 @@ int main(void) {
   test_anisotropy();
   test_settled();
   test_header();
+  test_image();
   return check_done();
 }
