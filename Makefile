@@ -143,6 +143,11 @@ INSTANTS ?= 200
 torture: all ## kill runs and go on, let each call fail, INSTANTS=200 (an hour)
 	B=$(B) tests/torture.sh $(INSTANTS)
 
+threads: ## two threads under clang's thread sanitizer and archer (libomp-dev)
+	$(MAKE) $(B)/threads/settle $(B)/threads/analyze B=$(B)/threads CC=clang \
+	  CFLAGS='-O1 -g -fsanitize=thread'
+	B=$(B)/threads tests/threads.sh
+
 load: all ## 10,000 runs in a row, 64 at once, one for an hour
 	B=$(B) tests/load.sh
 
@@ -248,4 +253,4 @@ help: ## this list
 
 include plots/rules.mk plots/captions.mk settle/lammps/lammps.mk
 
-.PHONY: all check check-quick clients sanitize tidy torture load valgrind mutants fuzz fuzz-programs deps deps-developer demo man install uninstall clean help
+.PHONY: all check check-quick clients sanitize tidy torture threads load valgrind mutants fuzz fuzz-programs deps deps-developer demo man install uninstall clean help

@@ -48,7 +48,7 @@ declare -A makes=(
 # Targets that make no figure; bench-clean comes last.
 others=' all check clients fuzz deps demo install uninstall clean help readme'
 others+=' docs-figures bench-clean'
-others+=' lammps torture load valgrind mutants fuzz-programs sanitize tidy check-long check-quick deps-developer man '
+others+=' lammps torture threads load valgrind mutants fuzz-programs sanitize tidy check-long check-quick deps-developer man '
 
 targets=()
 while read -r target _; do
