@@ -509,7 +509,7 @@ static int count_parts(const struct sample *s) {
   struct parts *p = NULL;
   bool solid[100];
   (void)s;
-  int status = parts_open(&p, 100, 2);
+  int status = parts_open(&p, 100, 2, (const bool[3]){true, true, true});
   CHECK((status == GSL_SUCCESS) == (p != NULL));
   for (int row = 0; row < 6 && status == GSL_SUCCESS; row++) {
     for (int i = 0; i < 100; i++)
