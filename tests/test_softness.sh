@@ -15,21 +15,24 @@ header() { # FILE KEY
 }
 
 # The mean over 17 to 20 contacts is known to a sixth: their loads differ as an
-# exponential distribution does, so ln N by 1.28, and its mean is 1.47.
-for options in '--seed 1 --overlap 0.03' \
-  '--seed 2 --overlap 0.005 --friction 0.5' \
-  '--seed 3 --overlap 0.01 --model basic --restitution 0.8' \
-  '--seed 4 --overlap 0.02 --radius 0.00025 --density 2500' \
-  '--seed 5 --overlap 0.01 --base 1.5,0.8 --count 120'; do
-  # shellcheck disable=SC2086
-  "$B/settle" --quiet $options >"$T/bed" 2>"$T/err"
-  said=$options
-  check 'without a word' test $? = 0 -a ! -s "$T/err"
+# exponential distribution does, so ln N by 1.28, and its mean is 1.47. So three
+# beds each: without friction another compiler makes others of the same seeds.
+for options in '--overlap 0.03' '--overlap 0.005 --friction 0.5' \
+  '--overlap 0.01 --model basic --restitution 0.8' \
+  '--overlap 0.02 --radius 0.00025 --density 2500' \
+  '--overlap 0.01 --base 1.5,0.8 --count 120'; do
   asked=$(sed 's/.*--overlap \([0-9.]*\).*/\1/' <<<"$options")
-  r=$(header "$T/bed" radius)
-  got=$(floor_overlap "$T/bed" "$(awk -v r="$r" 'BEGIN { print 2 * r }')")
+  said=$options
+  for seed in 1 2 3; do
+    # shellcheck disable=SC2086
+    "$B/settle" --quiet --seed $seed $options >"$T/bed" 2>"$T/err"
+    check 'without a word' test $? = 0 -a ! -s "$T/err"
+    r=$(header "$T/bed" radius)
+    floor_overlap "$T/bed" "$(awk -v r="$r" 'BEGIN { print 2 * r }')"
+  done >"$T/got"
+  got=$(awk '{ s += $1 } END { print s / NR }' "$T/got")
   check "overlap $got for $asked" awk -v a="$asked" -v g="$got" \
-    'BEGIN { exit !(g / a > 0.83 && g / a < 1.2) }'
+    'BEGIN { exit !(g / a > 0.8 && g / a < 1.25) }'
 done
 said=
 
