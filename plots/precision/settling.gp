@@ -77,8 +77,12 @@ do for [p=1:3] {
         x(m) : NaN):(above(column("y"))):(strcol("setting")) with labels left \
         offset 0.8,0.6 font ",16" tc rgb method_colour(m) notitle, \
       for [m in left && p == 1 ? "multirate" : ""] ARG1 using (is(m, "point") ? \
-        x(m) : NaN):(above(column("y"))):(strcol("setting")) with labels right \
-        offset -1.2,-0.5 font ",16" \
+        x(m) : NaN):(above(column("y"))):(strcol("setting") eq "5e-4" ? "" : \
+        strcol("setting")) with labels right offset -1.8,0 font ",16" \
+        tc rgb method_colour(m) notitle, \
+      for [m in left && p == 1 ? "multirate" : ""] ARG1 using (is(m, "point") && \
+        strcol("setting") eq "5e-4" ? x(m) : NaN):(above(column("y"))): \
+        (strcol("setting")) with labels center offset 0,-1.3 font ",16" \
         tc rgb method_colour(m) notitle, \
       for [m in left && p == 3 ? "verlet" : ""] ARG1 using (is(m, "point") || \
         is(m, "limit") ? x(m) : NaN):(above(column("high"))): \
