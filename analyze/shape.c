@@ -411,6 +411,65 @@ void shape_plane(const struct shape *s, size_t k, double foot[3],
     outwards[m] = length * plane[m];
 }
 
+/* Spheres that a wall of the container or a face of the domain cuts, which
+   leave wedges there, and those that end before one, which leave gaps. */
+struct ends {
+  size_t cut;
+  double wedge; /* the sharpest angle between the surfaces (degrees) */
+  double gap;   /* the narrowest; infinite without any */
+};
+
+/* One sphere and one surface at the distance d from its centre; a tube of a
+   radius, or a plane. */
+static bool look_at_end(struct ends *e, double d, double r, double radius) {
+  if (d >= r)
+    e->gap = fmin(e->gap, d - r);
+  if (!(fabs(d) < r))
+    return false;
+  /* where they meet farthest out, by the cosine rule in a cut across a tube */
+  const double away = radius - d;
+  const double cosine =
+      radius > 0 && away > 0
+          ? (radius * radius + r * r - away * away) / (2 * radius * r)
+          : d / r;
+  e->wedge = fmin(e->wedge, acos(fmin(1, fabs(cosine))) * 180 / M_PI);
+  return true;
+}
+
+static void find_ends(const struct shape *s, struct ends *e) {
+  const struct container *c = s->solid.container;
+  double box[6], away[3];
+  shape_domain(s, box);
+  *e = (struct ends){.wedge = GSL_POSINF, .gap = GSL_POSINF};
+  for (size_t i = 0; i < s->solid.n; i++) {
+    const double *x = s->solid.x + 3 * i, r = s->solid.r[i];
+    bool cut = false;
+    if (box_misses_ball(box, x, r) ||
+        (c && container_slant_distance(c, x) <= -r))
+      continue;
+    for (int k = 0; k < 6; k++)
+      cut |= look_at_end(e, (k % 2 ? 1 : -1) * (box[k] - x[k / 2]), r, 0);
+    for (size_t k = 0; c && k < c->planes; k++)
+      cut |= look_at_end(e, c->plane[k][3] - vec3_dot(c->plane[k], x), r, 0);
+    if (c && c->radius > 0)
+      cut |=
+          look_at_end(e, c->radius - container_away(c, x, away), r, c->radius);
+    e->cut += cut;
+  }
+}
+
+void shape_say_ends(struct shape *s) {
+  struct ends e;
+  find_ends(s, &e);
+  if (e.cut)
+    shape_add(s, "walls and faces cut %zu spheres, at %.2g degrees and more",
+              e.cut, e.wedge);
+  else
+    shape_add(s, "walls and faces cut no sphere");
+  if (isfinite(e.gap))
+    shape_add(s, "; the narrowest gap to others is %.2g", e.gap);
+}
+
 double shape_least_radius(const struct shape *s) {
   return least_radius(&s->bed);
 }

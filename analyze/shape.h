@@ -84,6 +84,10 @@ void shape_tube(const struct shape *s, double from[3], double to[3]);
 void shape_plane(const struct shape *s, size_t k, double foot[3],
                  double outwards[3]);
 
+/* Says of a format for meshers which spheres a wall of the container or a face
+   of the domain cuts, at which angle, and how near the others come to it. */
+void shape_say_ends(struct shape *s);
+
 double shape_least_radius(const struct shape *s); /* infinite without any */
 
 void shape_free(struct shape *s);

@@ -53,10 +53,11 @@ static void check(struct shape *s) {
         least, tolerance);
     frame_refuse(s->frames, s->source, why);
   }
+  shape_say_ends(s);
   const size_t pairs = undecided(s);
   if (pairs && !s->solid.bridges)
     shape_add(s,
-              "%zu pair%s of spheres touch to %g, which gmsh's kernel cannot "
+              "; %zu pair%s of spheres touch to %g, which gmsh's kernel cannot "
               "tell from a gap: --gap or --bridge",
               pairs, pairs == 1 ? "" : "s", tolerance);
 }
@@ -91,6 +92,8 @@ static size_t write_tools(FILE *out, const struct shape *s,
     put_list(out, 4, (double[]){x[0], x[1], x[2], b->r[i]});
   }
   for (size_t k = 0; k < s->solid.bridges; k++) {
+    /* from centre to centre: gmsh is sooner done with shorter ones, which do
+       not cross, and then loses some */
     const double *p = s->solid.x + 3 * (size_t)s->ends[k][0];
     const double *q = s->solid.x + 3 * (size_t)s->ends[k][1];
     double middle[3], d[3];

@@ -162,6 +162,7 @@ void write_openfoam(const char *folder, const struct write_frame *f,
   for (int k = 0; k < 3; k++)
     point[k] += aside[k] * clearance;
   shape_measure(s);
+  shape_say_ends(s);
 
   struct output_file surface, block, snappy, control, schemes, solution;
   output_folder(folder);

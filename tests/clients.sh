@@ -47,6 +47,18 @@ agree() { # CLIENT WHAT THEIRS OURS TOLERANCE: relative, and a line of the table
 "$B/analyze" radius --quiet --keep contact-mean "$T/bed" >"$T/geometry"
 unsealed "$T/geometry" | awk '/^[0-9]/ && ++n > 25 {next} {print}' >"$T/small"
 slab=0,1,0,1,0,0.5
+# A tube, and a bed with periodic sides.
+"$B/settle" --quiet --cylinder 0.3,0.3,0,0,0,1,0.3 --count 40 --time 4 \
+  >"$T/tube.bed" 2>"$T/err" || fail 'no tube'
+"$B/analyze" radius --quiet --keep contact-mean "$T/tube.bed" >"$T/tube"
+"$B/settle" --quiet --periodic xy --count 40 --time 2 >"$T/periodic" \
+  2>"$T/err" || fail 'no periodic bed'
+
+share() { # PORE: the solid share of the box that was stated
+  sed -n 's/.*of the box \([-+0-9.e,]*\) .*/\1/p' "$T/said" | head -n 1 |
+    awk -F , -v p="$1" '{v = ($2 - $1) * ($4 - $3) * ($6 - $5)
+      printf "%.12g", 1 - p / v}'
+}
 printf '%-10s %-34s %-18s %-18s %s\n' client what theirs ours difference
 
 # --- gmsh --------------------------------------------------------------------
@@ -82,6 +94,16 @@ if has gmsh; then
   "$python" "$T/read_gmsh.py" "$T/a.geo" >"$T/read" 2>"$T/err"
   agree gmsh 'solid, 25 spheres with bridges' "$(awk '$1 == "pore" {
     printf "%.12g", 1 - $2 / 0.5}' "$T/read")" "$(stated 'solid fraction')" 1e-6
+  hand --format geo --walls "$T/tube" >"$T/a.geo"
+  "$python" "$T/read_gmsh.py" "$T/a.geo" >"$T/read" 2>"$T/err"
+  agree gmsh 'solid, 40 spheres in a tube' "$(share "$(theirs pore)")" \
+    "$(stated 'solid fraction')" 1e-6
+  check 'gmsh: the names with a tube' [ "$(theirs names)" = \
+    pore,spheres,walls,zmax,zmin ]
+  hand --format geo "$T/periodic" >"$T/a.geo"
+  "$python" "$T/read_gmsh.py" "$T/a.geo" >"$T/read" 2>"$T/err"
+  agree gmsh 'solid, 40 spheres, periodic sides' "$(share "$(theirs pore)")" \
+    "$(stated 'solid fraction')" 1e-6
   hand --format geo --gap 0.01 --box $slab "$T/small" >"$T/a.geo"
   "$python" "$T/read_gmsh.py" "$T/a.geo" mesh >"$T/read" 2>"$T/err"
   check "gmsh: a mesh of 25 spheres with gaps: $(theirs tetrahedra)" \
@@ -104,6 +126,14 @@ if command -v snappyHexMesh >/dev/null; then
       's/.*Total volume = \([0-9.e-]*[0-9]\).*/\1/p' "$T/log")" "$(awk -v \
       s="$(stated 'solid fraction')" 'BEGIN {printf "%.9g", (1 - s) / 2}')" 0.01
   done
+  rm -rf "$T/foam"
+  hand --format openfoam --cells 24 --walls --output "$T/foam" "$T/tube"
+  (cd "$T/foam" && blockMesh && snappyHexMesh -overwrite && checkMesh) \
+    >"$T/log" 2>&1
+  check 'OpenFOAM: checkMesh, a tube' grep -q '^Mesh OK' "$T/log"
+  agree OpenFOAM 'solid and walls, a tube, 24 cells' "$(share "$(sed -n \
+    's/.*Total volume = \([0-9.e-]*[0-9]\).*/\1/p' "$T/log")")" \
+    "$(stated 'solid fraction')" 0.01
 else
   skip OpenFOAM openfoam
 fi
@@ -124,6 +154,13 @@ if command -v admesh >/dev/null; then
     "$(sed -n 's/.*Volume *: *\([0-9.]*\)/\1/p' "$T/log")" "$merged" 1e-3
   hand --format stl "$T/small" >"$T/bodies.stl"
   admesh "$T/bodies.stl" >"$T/log" 2>"$T/err"
+  hand --format stl --merged --cells 60 --walls "$T/tube" >"$T/walled.stl"
+  admesh "$T/walled.stl" >"$T/walled.log" 2>"$T/err"
+  check 'admesh: with a tube no facet is disconnected' \
+    grep -q 'Total disconnected facets *: *0 ' "$T/walled.log"
+  agree admesh 'volume, merged with a tube' \
+    "$(sed -n 's/.*Volume *: *\([0-9.]*\)/\1/p' "$T/walled.log")" \
+    "$(stated 'volume')" 1e-3
   agree admesh 'bodies of 25 spheres' \
     "$(sed -n 's/^Number of parts *: *\([0-9]*\).*/\1/p' "$T/log")" 25 0
 else
@@ -226,6 +263,12 @@ END
     NR > 1 {v += $8 ^ 2 + $9 ^ 2 + $10 ^ 2; r += $6 ^ 3}
     END {printf "%.14g %.14g", v, r}')
   agree ASE 'spheres' "$(theirs spheres)" 200 0
+  hand --format xyz "$T/periodic" >"$T/periodic.xyz"
+  check 'ASE: the periodic cell' [ "$("$python" -c "
+import sys, ase.io
+a = ase.io.read(sys.argv[1])
+print(a.pbc.tolist(), a.cell.lengths()[:2].tolist())" "$T/periodic.xyz" \
+    2>"$T/err")" = '[True, True, False] [1.0, 1.0]' ]
   agree ASE 'sum of velo^2 (m^2/s^2)' "$(theirs speed)" "${sums% *}" 1e-12
   agree ASE 'sum of radius^3 (m^3)' "$(theirs volume)" "${sums#* }" 1e-12
 else

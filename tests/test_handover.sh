@@ -525,7 +525,18 @@ check 'geo: seven named surfaces and the pore' [ "$(grep -c '^ *Physical' \
 hand --format geo --bridge 0.03 "$T/touching" >"$T/geo"
 check 'geo: bridges' [ "$(grep -c '^Cylinder' "$T/geo")" -gt 300 ]
 hand --format geo "$T/pair.csv" >"$T/geo"
-check 'geo: nothing to say of spheres apart' [ "$(wc -l <"$T/said")" = 1 ]
+check 'geo: no word of spheres apart' [ "$(grep -c touch "$T/said")" = 0 ]
+# acos(0.1/0.2)
+printf 'x,y,z,r\n.9,.5,.5,.2\n.25,.5,.5,.2\n' >"$T/ends.csv"
+hand --format geo "$T/ends.csv" >"$T/geo"
+check 'geo: the wedge at a face' grep -q \
+  'cut 1 spheres, at 60 degrees and more; the narrowest gap to others is 0.05$' \
+  "$T/said"
+awk '/^[0-9]/ {if (n++) next; $2 = 0.7; $3 = 0.5; $4 = 0.3; $5 = 0.4} {print}' \
+  FS='\t' OFS='\t' <(unsealed "$T/tube") >"$T/ends"
+# at 0.2 of the axis of a tube of 0.5: cos = (0.25 + 0.16 - 0.04)/0.4
+hand --format geo --walls "$T/ends" >"$T/geo"
+check 'geo: the wedge at a tube' grep -q 'cut 1 spheres, at 22 degrees' "$T/said"
 printf 'x,y,z,r\n.3,.5,.5,.2\n.7,.5,.5,.2\n' >"$T/pair.csv"
 hand --format geo "$T/pair.csv" >"$T/geo"
 check 'geo: spheres that just touch' grep -q '1 pair of spheres touch' "$T/said"
