@@ -26,6 +26,10 @@ static const double shorten = 0.1, lengthen = 5, careful = 0.8;
    half as many parts again have to grow, for beds that are no better. */
 static const double partners_error = 2;
 
+/* The same for what came and went within the step. Contacts that were there all
+   the time are not meant: their forces sway. */
+static const double missed_error = 10;
+
 /* Times that a part may grow before its step is taken again in whole. */
 enum { MOST_AGAIN = 3 };
 
@@ -98,7 +102,8 @@ static int step(struct lane *lane, size_t depth, double t, double *h);
 /* Takes the level from t to end. */
 static int advance(struct lane *lane, size_t depth, double t, double end) {
   struct level *l = lane->level[depth];
-  double last = end - t;
+  const double whole = end - t;
+  double last = whole;
   while (t < end) {
     const double left = end - t;
     double h = choose(lane, depth, GSL_MIN(left, lengthen * last));
@@ -111,6 +116,9 @@ static int advance(struct lane *lane, size_t depth, double t, double end) {
       return status;
     last = h;
     t = h == left ? end : t + h;
+    if (depth > 0 && t < end &&
+        level_watch_ghosts(l, lane->level[depth - 1], t, whole) != GSL_SUCCESS)
+      return GSL_EBADFUNC;
     if (trace_append(lane->trace, l, t) != GSL_SUCCESS)
       return GSL_ENOMEM;
   }
@@ -135,6 +143,10 @@ static int reserve_changes(struct changes *c, size_t more, size_t stride) {
   if (!error)
     return GSL_ENOMEM;
   c->error = error;
+  double *missed = realloc(c->missed, size * sizeof *missed);
+  if (!missed)
+    return GSL_ENOMEM;
+  c->missed = missed;
   c->size = size;
   return GSL_SUCCESS;
 }
@@ -170,9 +182,24 @@ static int note_changes(struct lane *lane, size_t depth, double end) {
   for (size_t q = 0; q < child->ghosts; q++)
     c->row[c->count + q] = (uint32_t)child->list->order[child->rows + q];
   note_errors(l, child, c->error + c->count);
+  memcpy(c->missed + c->count, child->missed,
+         child->ghosts * sizeof *c->missed);
   const int status =
       level_feedback(child, l, end, c->value + c->count * l->stride);
   c->count += child->ghosts;
+  return status;
+}
+
+/* The island's own steps; how wrong it was to freeze what seemed far. */
+static int take_island(struct lane *lane, size_t depth, size_t island, double t,
+                       double h, double *error) {
+  const struct level *l = lane->level[depth];
+  struct level *child = lane->level[depth + 1];
+  int status = level_refine(child, l, island, t, h);
+  if (status == GSL_SUCCESS)
+    status = advance(lane, depth + 1, t, t + h);
+  if (status == GSL_SUCCESS)
+    status = level_catch_up(child, l, h, error);
   return status;
 }
 
@@ -184,11 +211,9 @@ static void solve(struct lane *lane, size_t depth, size_t island, double t,
   *r = (struct result){.lane = lane->number,
                        .changes = lane->changes.count,
                        .trace = trace_mark(lane->trace)};
-  r->status = level_refine(child, l, island, t, h);
-  if (r->status == GSL_SUCCESS)
-    r->status = advance(lane, depth + 1, t, t + h);
-  if (r->status == GSL_SUCCESS)
-    r->status = level_catch_up(child, l);
+  double error = 0;
+  r->status = take_island(lane, depth, island, t, h, &error);
+  r->narrow = !l->wide && !(error <= 1);
   if (r->status == GSL_SUCCESS)
     r->status = note_changes(lane, depth, t + h);
   r->changes_end = lane->changes.count;
@@ -285,9 +310,17 @@ static int solve_islands(struct lane *lane, size_t depth, double t, double h) {
   return status;
 }
 
+static bool any_narrow(const struct islands *s, const struct results *results) {
+  for (size_t k = 0; k < s->count; k++)
+    if (results->of[s->row[s->begin[k]]].narrow)
+      return true;
+  return false;
+}
+
 /* Adds up the changes that the islands made in the rates of other rows, and
    flags the rows whose velocities that may have changed by more than the
-   tolerance; returns how many. */
+   tolerance; returns how many. Rows that were hit and left again are felt by
+   islands of all contacts alone. */
 static size_t add_changes(struct lane *lane, size_t depth, double h) {
   struct level *l = lane->level[depth];
   const struct islands *s = &l->islands;
@@ -306,6 +339,10 @@ static size_t add_changes(struct lane *lane, size_t depth, double h) {
       for (size_t u = ROW_V; u < stride; u++)
         l->change[i * stride + u] += c->value[q * stride + u];
       l->partner_error[i] = GSL_MAX(l->partner_error[i], c->error[q]);
+      if (c->missed[q] > missed_error) {
+        l->flagged[i] = l->wide = true;
+        more++;
+      }
     }
   }
   for (size_t i = 0; i < l->rows; i++)
@@ -340,6 +377,7 @@ static int refine(struct lane *lane, size_t depth, double t, double h,
     return GSL_ENOMEM;
   memset(results->first, 0, l->rows * sizeof *results->first);
   memset(results->solved, 0, l->rows * sizeof *results->solved);
+  l->wide = false;
   int status = GSL_FAILURE;
   for (size_t k = 0; k < MOST_AGAIN; k++) {
     if ((double)flagged > most_flagged * (double)l->rows)
@@ -349,12 +387,19 @@ static int refine(struct lane *lane, size_t depth, double t, double h,
       status = solve_islands(lane, depth, t, h);
     if (status != GSL_SUCCESS)
       break;
-    const size_t more = add_changes(lane, depth, h);
-    if (more == 0) {
+    const bool was_wide = l->wide;
+    size_t more = 0;
+    if (any_narrow(&l->islands, results))
+      l->wide = true;
+    else
+      more = add_changes(lane, depth, h);
+    if (more == 0 && l->wide == was_wide) {
       merge(l);
       l->counts.refined++;
       break;
     }
+    if (l->wide != was_wide)
+      memset(results->solved, 0, l->rows * sizeof *results->solved);
     flagged += more;
     l->counts.again++;
     status = GSL_FAILURE;
@@ -465,6 +510,7 @@ void lanes_free(struct lanes *all) {
     free(lane->changes.row);
     free(lane->changes.value);
     free(lane->changes.error);
+    free(lane->changes.missed);
     trace_free(lane->trace);
     chebyshev_free(lane->setting.chebyshev);
   }

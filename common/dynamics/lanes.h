@@ -16,7 +16,7 @@ enum { LANES_LEVELS = 3 };
 struct changes {
   size_t count, size;
   uint32_t *row;
-  double *value, *error;
+  double *value, *error, *missed;
 };
 
 /* The outcome of an island, valid for as long as no other row joins it. */
@@ -24,6 +24,7 @@ struct result {
   size_t lane;
   size_t changes, changes_end, trace, trace_end;
   int status;
+  bool narrow; /* has to be taken again with all contacts */
 };
 
 /* Results of a level's islands, by their first rows. */

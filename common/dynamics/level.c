@@ -86,6 +86,9 @@ void level_free(struct level *l) {
                        l->frozen,
                        l->away,
                        l->cubic,
+                       l->low,
+                       l->high,
+                       l->missed,
                        l->error,
                        l->wanted,
                        l->partner_error,
@@ -136,6 +139,9 @@ int level_reserve(struct level *l) {
       !renew(&l->power.direction, vector) || !renew(&l->frozen, vector) ||
       (l->apart && !renew(&l->away, vector)) ||
       !renew(&l->cubic, 4 * ghosts * l->stride + 4) ||
+      (l->apart &&
+       (!renew(&l->low, ghosts * l->stride) ||
+        !renew(&l->high, ghosts * l->stride) || !renew(&l->missed, ghosts))) ||
       !renew(&l->error, room) || !renew(&l->wanted, room) ||
       !renew(&l->partner_error, room) || !l->flagged || !l->refined ||
       !l->whole)
@@ -425,10 +431,16 @@ static void make_ghosts(struct level *child, const struct level *l, double t,
   }
 }
 
+/* Which contacts islands have, among each other too. */
+static double island_gap(const struct level *l, double h) {
+  return l->wide ? GSL_POSINF : far_gap(l, h);
+}
+
 int level_islands(struct level *l, double t, double h) {
   if (l->ghosts)
     level_ghosts(l, t, l->y0);
-  const struct contact_reach reach = {.y = l->y0, .h = h, .gap = far_gap(l, h)};
+  const struct contact_reach reach = {
+      .y = l->y0, .h = h, .gap = island_gap(l, h)};
   return islands_find(&l->islands, l->list, l->flagged, &reach);
 }
 
@@ -452,57 +464,6 @@ static int apart_rates(struct level *child, const struct level *l,
   return status;
 }
 
-int level_refine(struct level *child, const struct level *l, size_t island,
-                 double t, double h) {
-  const struct contact_law *law = &l->list->law;
-  const struct contact_reach reach[2] = {
-      {.y = l->y0, .h = h, .gap = far_gap(l, h)},
-      {.y = l->y0, .h = h, .gap = law->lmax + 2 / law->kappa}};
-  struct contact_list *const parts[2] = {child->list, child->apart};
-  const size_t begin = l->islands.begin[island];
-  int status = contact_subset_rows(parts, 2, l->list, l->islands.row + begin,
-                                   l->islands.begin[island + 1] - begin, reach);
-  if (status == GSL_SUCCESS)
-    status = level_reserve(child);
-  if (status != GSL_SUCCESS)
-    return status;
-  for (size_t a = 0; a < child->rows; a++) {
-    const size_t i = child->list->order[a];
-    copy_row(l->stride, l->y0, i, child->y0, a);
-    copy_row(l->stride, l->f0, i, child->f0, a);
-    copy_row(l->stride, l->power.direction, i, child->power.direction, a);
-    copy_row(l->stride, l->weight, i, child->weight, a);
-    const double wants = h * GSL_MAX(0.02, 0.8 / cbrt(l->error[i]));
-    child->wanted[a] =
-        GSL_MIN(l->refined[i] ? GSL_MAX(l->wanted[i], wants) : wants, h);
-    child->refined[a] = false;
-  }
-  for (size_t a = 0; a < child->rows + child->ghosts; a++)
-    child->whole[a] = l->whole[child->list->order[a]];
-  make_ghosts(child, l, t, h);
-  /* its own is at most that of all, as far as a spectral radius is one of a
-     symmetric matrix */
-  child->power.radius = l->power.radius;
-  child->power.known = child->inherited = true;
-  child->power.length = 0;
-  child->served = 0;
-  return apart_rates(child, l, child->y0, l->y0, child->away);
-}
-
-int level_catch_up(struct level *child, const struct level *l) {
-  const size_t stride = l->stride;
-  double *now = child->f1;
-  const int status = apart_rates(child, l, child->y0, l->y1, now);
-  if (status != GSL_SUCCESS)
-    return status;
-  for (size_t a = 0; a < child->rows; a++)
-    for (size_t c = ROW_V; c < stride; c++) {
-      const size_t k = a * stride + c;
-      child->f0[k] += now[k] - child->away[k];
-    }
-  return GSL_SUCCESS;
-}
-
 /* Rates of the ghosts by the contacts of the list, into the ghosts' rows of
    b. */
 static int ghost_rates(struct level *l, double t, double *y) {
@@ -519,6 +480,111 @@ static int ghost_rates(struct level *l, double t, double *y) {
   const bool finite = kernel->finish(list, y, l->b, 0, all, &part);
   list->frozen = l->away;
   return finite ? GSL_SUCCESS : GSL_EBADFUNC;
+}
+
+/* What rates of child's ghosts lie between: those at the start of l's step and
+   those after its first try. */
+static int between(struct level *child, const struct level *l, double t,
+                   double h) {
+  const size_t ghosts = child->ghosts * child->stride;
+  const double *rates = child->b + child->rows * child->stride;
+  memset(child->missed, 0, child->ghosts * sizeof *child->missed);
+  if (child->ghosts == 0)
+    return GSL_SUCCESS;
+  int status = ghost_rates(child, t, child->y0);
+  if (status != GSL_SUCCESS)
+    return status;
+  memcpy(child->low, rates, ghosts * sizeof *rates);
+  for (size_t a = 0; a < child->rows; a++)
+    copy_row(l->stride, l->y1, child->list->order[a], child->a, a);
+  status = ghost_rates(child, t + h, child->a);
+  for (size_t k = 0; k < ghosts && status == GSL_SUCCESS; k++) {
+    child->high[k] = GSL_MAX(child->low[k], rates[k]);
+    child->low[k] = GSL_MIN(child->low[k], rates[k]);
+  }
+  return status;
+}
+
+int level_watch_ghosts(struct level *child, struct level *l, double t,
+                       double h) {
+  const size_t stride = child->stride;
+  if (child->ghosts == 0)
+    return GSL_SUCCESS;
+  const int status = ghost_rates(child, t, child->y0);
+  if (status != GSL_SUCCESS)
+    return status;
+  for (size_t q = 0; q < child->ghosts; q++) {
+    const size_t i = child->list->order[child->rows + q];
+    const double *rates = child->b + (child->rows + q) * stride;
+    const double *low = child->low + q * stride,
+                 *high = child->high + q * stride;
+    double beyond[ROW_SPIN] = {0};
+    for (size_t c = ROW_V; c < stride; c++)
+      beyond[c] = GSL_MAX(0, GSL_MAX(rates[c] - high[c], low[c] - rates[c]));
+    const double error = 0.4 * h * level_row_error(l, i, beyond);
+    child->missed[q] = GSL_MAX(child->missed[q], error);
+    if (i >= l->rows) /* a ghost of l's too */
+      l->missed[i - l->rows] = GSL_MAX(l->missed[i - l->rows], error);
+  }
+  return GSL_SUCCESS;
+}
+
+int level_refine(struct level *child, const struct level *l, size_t island,
+                 double t, double h) {
+  const struct contact_reach reach[2] = {
+      {.y = l->y0, .h = h, .gap = island_gap(l, h)},
+      {.y = l->y0, .h = h, .gap = GSL_POSINF}};
+  struct contact_list *const parts[2] = {child->list, child->apart};
+  const size_t begin = l->islands.begin[island];
+  int status = contact_subset_rows(parts, 2, l->list, l->islands.row + begin,
+                                   l->islands.begin[island + 1] - begin, reach);
+  if (status == GSL_SUCCESS)
+    status = level_reserve(child);
+  if (status != GSL_SUCCESS)
+    return status;
+  for (size_t a = 0; a < child->rows; a++) {
+    const size_t i = child->list->order[a];
+    copy_row(l->stride, l->y0, i, child->y0, a);
+    copy_row(l->stride, l->f0, i, child->f0, a);
+    copy_row(l->stride, l->power.direction, i, child->power.direction, a);
+    const double wants = h * GSL_MAX(0.02, 0.8 / cbrt(l->error[i]));
+    child->wanted[a] =
+        GSL_MIN(l->refined[i] ? GSL_MAX(l->wanted[i], wants) : wants, h);
+    child->refined[a] = false;
+  }
+  for (size_t a = 0; a < child->rows + child->ghosts; a++) {
+    child->whole[a] = l->whole[child->list->order[a]];
+    copy_row(l->stride, l->weight, child->list->order[a], child->weight, a);
+  }
+  make_ghosts(child, l, t, h);
+  /* its own is at most that of all, as far as a spectral radius is one of a
+     symmetric matrix */
+  child->power.radius = l->power.radius;
+  child->power.known = child->inherited = true;
+  child->power.length = 0;
+  child->served = 0;
+  const int rates = apart_rates(child, l, child->y0, l->y0, child->away);
+  return rates == GSL_SUCCESS ? between(child, l, t, h) : rates;
+}
+
+int level_catch_up(struct level *child, const struct level *l, double h,
+                   double *error) {
+  const size_t stride = l->stride;
+  double *now = child->f1;
+  const int status = apart_rates(child, l, child->y0, l->y1, now);
+  if (status != GSL_SUCCESS)
+    return status;
+  *error = 0;
+  for (size_t a = 0; a < child->rows; a++) {
+    double *change = now + a * stride;
+    for (size_t c = ROW_V; c < stride; c++) {
+      const size_t k = a * stride + c;
+      change[c] -= child->away[k];
+      child->f0[k] += change[c];
+    }
+    *error = GSL_MAX(*error, 0.4 * h * level_row_error(child, a, change));
+  }
+  return GSL_SUCCESS;
 }
 
 int level_feedback(struct level *child, const struct level *l, double t,

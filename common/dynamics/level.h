@@ -35,7 +35,7 @@ struct level {
   struct level_setting *setting;
   struct contact_list *list;       /* the rows' contacts */
   struct contact_list *near, *far; /* parts of it, where the step is split */
-  /* Of an island: contacts of its rows that are far for the whole step of the
+  /* Of an island: contacts of its rows that seem far for the whole step of the
      level above. The list has the others; away, a row each, is what these and
      all that was frozen above give the rates at the step's start. */
   struct contact_list *apart;
@@ -51,11 +51,17 @@ struct level {
   /* Ghosts' unknowns are cubics of the time since start: four coefficients,
      each ghosts * stride. */
   double *cubic, start;
+  /* Of an island: between what the rates of each ghost by its rows were at the
+     start of the step above and after its first try, and the largest error in
+     velocity, 1 being the tolerance, that going beyond may have made since. */
+  double *low, *high, *missed;
 
   double *error;          /* of each row in the last try, 1: the tolerance */
   double *wanted;         /* the step that each row would take (s) */
   bool *flagged;          /* rows of the last try that need shorter steps */
   struct islands islands; /* of them */
+  bool wide; /* islands have all contacts: in this step something went where it
+                did not seem to go */
   /* Where shorter steps took the flagged rows by the end of the step, and what
      that changes in the rates of others; the largest error of the first try
      among the flagged partners of each, 1: the tolerance. */
@@ -110,8 +116,18 @@ int level_refine(struct level *child, const struct level *l, size_t island,
                  double t, double h);
 
 /* Brings what contacts far apart give to the rates of child, now at the end of
-   l's step, up to date. GSL_SUCCESS, GSL_EBADFUNC. */
-int level_catch_up(struct level *child, const struct level *l);
+   l's step of length h, up to date. error: by how much of the tolerance their
+   change may have moved a velocity; beyond 1 they were not far: a sphere was
+   hit and went where its velocity at the start did not lead. GSL_SUCCESS,
+   GSL_EBADFUNC. */
+int level_catch_up(struct level *child, const struct level *l, double h,
+                   double *error);
+
+/* Notes what child, now at t within l's step of length h, does to its ghosts: a
+   sphere that is hit and bounces off again leaves no change in their rates at
+   the step's end. GSL_SUCCESS, GSL_EBADFUNC. */
+int level_watch_ghosts(struct level *child, struct level *l, double t,
+                       double h);
 
 /* Changes by the rows of child, now at t + h, in the rates at the end of l's
    step: change gets a row for each ghost of child. GSL_SUCCESS,
