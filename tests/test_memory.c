@@ -190,15 +190,21 @@ static int make_over_floor(const struct sample *s) {
   return status;
 }
 
-/* The first evaluation makes the list. One failure in it is one too few for
-   the next to fail. */
-static int first_evaluation(const struct sample *s) {
+/* Dynamics for which no allocation fails. */
+static struct dynamics *dynamics_of(const struct sample *s) {
   struct dynamics *d = NULL;
-  const size_t stop = failing > calls ? failing : 0;
   failing = 0;
   if (dynamics_alloc(&d, &s->scene, &s->bed,
                      &(struct dynamics_options){.threads = 2}) != GSL_SUCCESS)
     abort();
+  return d;
+}
+
+/* The first evaluation makes the list. One failure in it is one too few for
+   the next to fail. */
+static int first_evaluation(const struct sample *s) {
+  const size_t stop = failing > calls ? failing : 0;
+  struct dynamics *d = dynamics_of(s);
   const size_t dim = dynamics_dimension(d);
   double *y = calloc(2 * dim, sizeof *y);
   if (!y)
@@ -218,12 +224,8 @@ static int first_evaluation(const struct sample *s) {
 /* A list that could not be made anew, for spheres that are closer and so have
    more pairs, is none for where they were before, either. */
 static int later_evaluation(const struct sample *s) {
-  struct dynamics *d = NULL;
   const size_t stop = failing > calls ? failing : 0;
-  failing = 0;
-  if (dynamics_alloc(&d, &s->scene, &s->bed,
-                     &(struct dynamics_options){.threads = 2}) != GSL_SUCCESS)
-    abort();
+  struct dynamics *d = dynamics_of(s);
   const size_t dim = dynamics_dimension(d);
   double *y = calloc(4 * dim, sizeof *y);
   if (!y)

@@ -185,7 +185,7 @@ static int note_changes(struct lane *lane, size_t depth, double end) {
   memcpy(c->missed + c->count, child->missed,
          child->ghosts * sizeof *c->missed);
   const int status =
-      level_feedback(child, l, end, c->value + c->count * l->stride);
+      level_feedback(child, end, c->value + c->count * l->stride);
   c->count += child->ghosts;
   return status;
 }

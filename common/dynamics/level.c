@@ -86,8 +86,8 @@ void level_free(struct level *l) {
                        l->frozen,
                        l->away,
                        l->cubic,
-                       l->low,
-                       l->high,
+                       l->started,
+                       l->tried,
                        l->missed,
                        l->error,
                        l->wanted,
@@ -140,8 +140,8 @@ int level_reserve(struct level *l) {
       (l->apart && !renew(&l->away, vector)) ||
       !renew(&l->cubic, 4 * ghosts * l->stride + 4) ||
       (l->apart &&
-       (!renew(&l->low, ghosts * l->stride) ||
-        !renew(&l->high, ghosts * l->stride) || !renew(&l->missed, ghosts))) ||
+       (!renew(&l->started, ghosts * l->stride) ||
+        !renew(&l->tried, ghosts * l->stride) || !renew(&l->missed, ghosts))) ||
       !renew(&l->error, room) || !renew(&l->wanted, room) ||
       !renew(&l->partner_error, room) || !l->flagged || !l->refined ||
       !l->whole)
@@ -482,26 +482,23 @@ static int ghost_rates(struct level *l, double t, double *y) {
   return finite ? GSL_SUCCESS : GSL_EBADFUNC;
 }
 
-/* What rates of child's ghosts lie between: those at the start of l's step and
-   those after its first try. */
-static int between(struct level *child, const struct level *l, double t,
-                   double h) {
-  const size_t ghosts = child->ghosts * child->stride;
+/* Rates of child's ghosts at the start of l's step and after its first try. */
+static int first_ghost_rates(struct level *child, const struct level *l,
+                             double t, double h) {
+  const size_t bytes = child->ghosts * child->stride * sizeof(double);
   const double *rates = child->b + child->rows * child->stride;
-  memset(child->missed, 0, child->ghosts * sizeof *child->missed);
   if (child->ghosts == 0)
     return GSL_SUCCESS;
+  memset(child->missed, 0, child->ghosts * sizeof *child->missed);
   int status = ghost_rates(child, t, child->y0);
   if (status != GSL_SUCCESS)
     return status;
-  memcpy(child->low, rates, ghosts * sizeof *rates);
+  memcpy(child->started, rates, bytes);
   for (size_t a = 0; a < child->rows; a++)
     copy_row(l->stride, l->y1, child->list->order[a], child->a, a);
   status = ghost_rates(child, t + h, child->a);
-  for (size_t k = 0; k < ghosts && status == GSL_SUCCESS; k++) {
-    child->high[k] = GSL_MAX(child->low[k], rates[k]);
-    child->low[k] = GSL_MIN(child->low[k], rates[k]);
-  }
+  if (status == GSL_SUCCESS)
+    memcpy(child->tried, rates, bytes);
   return status;
 }
 
@@ -516,11 +513,12 @@ int level_watch_ghosts(struct level *child, struct level *l, double t,
   for (size_t q = 0; q < child->ghosts; q++) {
     const size_t i = child->list->order[child->rows + q];
     const double *rates = child->b + (child->rows + q) * stride;
-    const double *low = child->low + q * stride,
-                 *high = child->high + q * stride;
+    const double *one = child->started + q * stride,
+                 *other = child->tried + q * stride;
     double beyond[ROW_SPIN] = {0};
     for (size_t c = ROW_V; c < stride; c++)
-      beyond[c] = GSL_MAX(0, GSL_MAX(rates[c] - high[c], low[c] - rates[c]));
+      beyond[c] = GSL_MAX(0, GSL_MAX(rates[c] - GSL_MAX(one[c], other[c]),
+                                     GSL_MIN(one[c], other[c]) - rates[c]));
     const double error = 0.4 * h * level_row_error(l, i, beyond);
     child->missed[q] = GSL_MAX(child->missed[q], error);
     if (i >= l->rows) /* a ghost of l's too */
@@ -564,7 +562,7 @@ int level_refine(struct level *child, const struct level *l, size_t island,
   child->power.length = 0;
   child->served = 0;
   const int rates = apart_rates(child, l, child->y0, l->y0, child->away);
-  return rates == GSL_SUCCESS ? between(child, l, t, h) : rates;
+  return rates == GSL_SUCCESS ? first_ghost_rates(child, l, t, h) : rates;
 }
 
 int level_catch_up(struct level *child, const struct level *l, double h,
@@ -587,20 +585,12 @@ int level_catch_up(struct level *child, const struct level *l, double h,
   return GSL_SUCCESS;
 }
 
-int level_feedback(struct level *child, const struct level *l, double t,
-                   double change[]) {
+int level_feedback(struct level *child, double t, double change[]) {
   const size_t ghosts = child->ghosts * child->stride;
   const double *rates = child->b + child->rows * child->stride;
-  for (size_t a = 0; a < child->rows; a++)
-    copy_row(l->stride, l->y1, child->list->order[a], child->a, a);
-  int status = ghost_rates(child, t, child->a);
-  if (status != GSL_SUCCESS)
-    return status;
-  memcpy(change, rates, ghosts * sizeof *change);
-  status = ghost_rates(child, t, child->y0);
-  rates = child->b + child->rows * child->stride;
-  for (size_t k = 0; k < ghosts; k++)
-    change[k] = rates[k] - change[k];
+  const int status = ghost_rates(child, t, child->y0);
+  for (size_t k = 0; k < ghosts && status == GSL_SUCCESS; k++)
+    change[k] = rates[k] - child->tried[k];
   return status;
 }
 

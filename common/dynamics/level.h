@@ -51,10 +51,10 @@ struct level {
   /* Ghosts' unknowns are cubics of the time since start: four coefficients,
      each ghosts * stride. */
   double *cubic, start;
-  /* Of an island: between what the rates of each ghost by its rows were at the
-     start of the step above and after its first try, and the largest error in
-     velocity, 1 being the tolerance, that going beyond may have made since. */
-  double *low, *high, *missed;
+  /* Of an island: rates of each ghost by its rows at the start of the step
+     above and after its first try, and the largest error in velocity, 1 being
+     the tolerance, that going beyond both may have made since. */
+  double *started, *tried, *missed;
 
   double *error;          /* of each row in the last try, 1: the tolerance */
   double *wanted;         /* the step that each row would take (s) */
@@ -132,8 +132,7 @@ int level_watch_ghosts(struct level *child, struct level *l, double t,
 /* Changes by the rows of child, now at t + h, in the rates at the end of l's
    step: change gets a row for each ghost of child. GSL_SUCCESS,
    GSL_EBADFUNC. */
-int level_feedback(struct level *child, const struct level *l, double t,
-                   double change[]);
+int level_feedback(struct level *child, double t, double change[]);
 
 /* Error of a row's change of velocities, 1: the tolerance. */
 double level_row_error(const struct level *l, size_t row, const double v[]);
