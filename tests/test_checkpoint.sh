@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Runs that are killed and go on from their checkpoints: to the last bit as if they
 # had not been stopped. tests/torture.sh is the long form.
-[[ ! -w /dev/shm ]] || export TMPDIR=/dev/shm # where fsync is fast
+[[ ! -w /dev/shm ]] || export TMPDIR="${TMPDIR:-/dev/shm}" # where fsync is fast
 . tests/harness.sh
 . tests/checkpoints.sh # resume may have arguments, or none
 

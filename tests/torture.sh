@@ -5,7 +5,7 @@
 # wrong, as the rows of the table in docs/reliability.md.
 #
 #   tests/torture.sh [INSTANTS [SEED]]
-[[ ! -w /dev/shm ]] || export TMPDIR=/dev/shm # where fsync is fast
+[[ ! -w /dev/shm ]] || export TMPDIR="${TMPDIR:-/dev/shm}" # where fsync is fast
 . tests/harness.sh
 . tests/checkpoints.sh # resume may have arguments, or none
 . tests/faults.sh
