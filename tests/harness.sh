@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Functions that the test scripts share. A script sources this file first, from
 # the root of the repository. B is the directory of the programs, T a scratch
-# one. A script ends with check_done.
+# one. A script ends with check_done, or, with CHECK_FIRST in the environment, when
+# something fails.
 set -u
 export LC_ALL=C.UTF-8 # what gnuplot needs for its labels
 B=${B:-build}
@@ -29,6 +30,7 @@ fail() { # NAME; what the last program said, if it is in $T/err, comes after it
   failed=$((failed + 1))
   echo "failed: ${said:+$said: }$1" >&2
   [[ ! -s $T/err ]] || head -n 5 "$T/err" >&2
+  [[ ! -v CHECK_FIRST ]] || exit 1
   return 1
 }
 

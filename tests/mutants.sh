@@ -7,8 +7,10 @@
 #   tests/mutants.sh [NUMBER [SEED [FILE...]]]
 #
 # JOBS=1    so many at a time, each in a tree of its own
-# MOST=60   seconds of tests for a mutant; what has survived them counts as survived
-# TESTS=... names of those to use, all if there are none
+# FEW=20    seconds of tests for a mutant at first; then those that have survived go on
+# MOST=60   to so many; what has survived these counts as survived
+# LIST=F    mutants of one's own: FILE, line number, its text, a line in its place; tabs
+#           between. NUMBER is then of no account
 # B=build   where results are kept (B/mutants): when started again it goes on. A
 #           killed mutant is tried again when its file has changed, a survivor when
 #           any file or test has
@@ -20,10 +22,11 @@
 # of the lines alone, so that more of them (NUMBER) are those and others.
 #
 # What is tried on a mutant are the tests that run its line, as gcov has seen once
-# (B/mutants/cover; remove it to have it seen anew, minutes): first the tests that
-# the header of its file names, then the quickest. A test fails also by using ten
-# times its own time. Equal machine code is no mutant ("void"); those of
-# tests/mutants.equivalent change nothing that can be seen, and it says why.
+# (B/mutants/cover; minutes, and again for tests that have changed): the quickest first,
+# and those that the header of its file names before others. The first check that fails
+# ends it (CHECK_FIRST). A test fails also by using four times its own time. Equal
+# machine code is no mutant ("void"); those of tests/mutants.equivalent change nothing
+# that can be seen, and it says why.
 #
 # A broken program may write where it should not: it runs in a scratch copy, with
 # limits, and never as root, since that would include devices.
@@ -31,7 +34,7 @@ set -u -o pipefail
 export LC_ALL=C.UTF-8 OMP_WAIT_POLICY=passive
 unset MAKEFLAGS MFLAGS MAKELEVEL # of the make that has started this
 number=${1:-300} seed=${2:-1}
-jobs=${JOBS:-1} most=${MOST:-60}
+jobs=${JOBS:-1} few=${FEW:-20} most=${MOST:-60}
 safely=()
 if ((EUID == 0)); then
   command -v setpriv >/dev/null || {
@@ -190,23 +193,27 @@ tests_of() { # FILE: what its header names, and what has its name
 tests_for() { # FILE LINE: what runs it, else what runs its file; the best first
   tests_of "$1" | awk -F '\t' -v OFS='\t' '
     FILENAME == "-" {own[$1] = 1; next}
-    FILENAME == ARGV[2] {time[$1] = $2; next}
-    $1 in time {print !own[$1], time[$1], $1}' - "$W/times" <(
+    FILENAME == ARGV[2] {
+      if ($2 != "-")
+        time[$1] = $2
+      next
+    }
+    $1 in time {print time[$1] * ($1 in own ? 0.1 : 1), time[$1], $1}' - "$W/times" <(
       cd "$W/cover" && { grep -lxF -- "$1"$'\t'"$2" * || grep -lF -- "$1"$'\t' *; }
-    ) | sort -k 1,1n -k 2,2g
+    ) | sort -k 1,1g
 }
 
 run_test() { # TEST SECONDS DIRECTORY: whether it passes; the directory is for its files
   local limit command=("build/tests/${1%.c}")
   [[ $1 == *.c ]] || command=(bash "tests/$1")
-  limit=$(awk -v s="$2" 'BEGIN {print int(10 * s) + 10}')
+  limit=$(awk -v s="$2" 'BEGIN {print int(4 * s) + 5}')
   rm -rf --one-file-system "$3"
   mkdir "$3"
   ((EUID != 0)) || chown 65534:65534 "$3"
   ( # time of the processor; on the clock only for what waits forever
-    ulimit -c 0 -f 1000000 -v 4000000 -t "$limit"
-    B=build HOME=$3 TMPDIR=$3 timeout -s KILL $((10 * limit + 100)) "${safely[@]}" \
-      "${command[@]}"
+    ulimit -c 0 -f 5000000 -v 4000000 -t "$limit"
+    CHECK_FIRST=1 B=build HOME=$3 TMPDIR=$3 timeout -s KILL $((10 * limit + 100)) \
+      "${safely[@]}" "${command[@]}"
   ) >"$3.log" 2>&1 </dev/null
 }
 
@@ -216,32 +223,45 @@ tree() { # NAME FLAGS...: a copy of the sources, with the programs
   cd "$T/$1" && "${make[@]}" "${@:2}" "${programs[@]}" >/dev/null
 }
 
-# Which lines each test runs, and how long it takes. Those that run whole studies,
-# or build elsewhere, are left out.
+# The tests of which it is not known which lines they run, or which have changed since.
+# Those that run whole studies, or build elsewhere, are left out.
+unseen() {
+  local test
+  for test in $(cd tests && ls test_*.c test_*.sh); do
+    case $test in
+      test_figures.sh | test_settling.sh | test_builds.sh | test_install.sh | \
+        test_lammps.sh | test_make.sh | test_harness.sh | test_rooms.sh) ;;
+      *) row "$test" "$(cksum <"tests/$test")" ;;
+    esac
+  done | grep -vxFf <(cut -f 1,3 "$W/times")
+}
+
+# Which lines each of them runs, and how long it takes: TEST, seconds, or - if it
+# fails, and its checksum
 look() {
-  local test TIMEFORMAT='%U %S'
+  local test sum time TIMEFORMAT='%U %S'
   echo 'mutants: which test runs which line; once, minutes' >&2
   tree seen "${seen[@]}" || return
-  rm -f "$W"/cover/*
   export GCOV_PREFIX=$T/gcda
-  for test in ${TESTS:-$(cd tests && ls test_*.c test_*.sh)}; do
-    case $test in
-      test_figures.sh | test_settling.sh | test_builds.sh | test_make.sh | \
-        test_harness.sh | test_rooms.sh) continue ;;
-      *.c) "${make[@]}" "${seen[@]}" "build/tests/${test%.c}" >/dev/null || return ;;
-    esac
+  while IFS=$'\t' read -r test sum; do
+    [[ $test == *.sh ]] ||
+      "${make[@]}" "${seen[@]}" "build/tests/${test%.c}" >/dev/null || return
     mkdir -m 777 "$GCOV_PREFIX"
     if { time run_test "$test" 100 "$T/look"; } 2>"$T/took"; then
       lines "$GCOV_PREFIX$PWD" >"$W/cover/$test"
-      awk -v OFS='\t' -v test="$test" '{print test, $1 + $2}' "$T/took"
+      time=$(awk '{print $1 + $2}' "$T/took")
     else
       echo "mutants: not used, as it fails on the whole sources: $test" >&2
       tail -n 3 "$T/look.log" >&2
+      rm -f "$W/cover/$test"
+      time=-
     fi
     rm -rf --one-file-system "$GCOV_PREFIX"
-  done >"$T/times"
+    awk -F '\t' -v test="$test" '$1 != test' "$W/times" >"$T/times"
+    row "$test" "$time" "$sum" >>"$T/times"
+    cp "$T/times" "$W/times"
+  done <"$T/unseen"
   unset GCOV_PREFIX
-  mv "$T/times" "$W/times"
 }
 
 lines() { # DIRECTORY of what gcov wrote: FILE, line, of those that were run
@@ -270,7 +290,9 @@ lines() { # DIRECTORY of what gcov wrote: FILE, line, of those that were run
     }' | sort -u
 }
 
-judge() { # FILE LINE-NUMBER LINE NEW: sets verdict and by, in the tree where we are
+# Sets verdict and by, in the tree where we are, after at most so many seconds of
+# tests, of which it may have passed some before
+judge() { # FILE LINE-NUMBER LINE NEW SECONDS PASSED
   local file=$1 object=build/obj/${1%.?} sum=0 first=libdem.a test time targets
   [[ $file == common/* ]] || first=${file%%/*}
   cp -p "$file" "$T/$tree.whole"
@@ -284,9 +306,13 @@ judge() { # FILE LINE-NUMBER LINE NEW: sets verdict and by, in the tree where we
   else
     while IFS=$'\t' read -r _ time test; do
       sum=$(awk -v a="$sum" -v b="$time" 'BEGIN {print a + b}')
-      if awk -v s="$sum" -v most="$most" 'BEGIN {exit !(s > most)}'; then
+      if awk -v s="$sum" -v most="$5" 'BEGIN {exit !(s > most)}'; then
         by+=' ...'
         break
+      fi
+      if [[ " $6 " == *" $test "* ]]; then
+        by+=" $test"
+        continue
       fi
       targets=("${programs[@]}")
       [[ $test != *.c ]] || targets=("build/tests/${test%.c}")
@@ -321,17 +347,27 @@ trimmed() {
   sed 's/^ *//; s/ *$//' <<<"$1"
 }
 
-work() { # TREE: every jobs-th of those that are left
-  local tree=$1 k=0 file line old new verdict by state
+work() { # TREE: every jobs-th of those that are left, then of those that survived
+  local tree=$1 seconds k file line old new passed verdict by state
   tree "$tree" "${whole[@]}" && cp -r build/obj build/whole || return
-  while IFS=$'\t' read -r file line old new; do
-    ((k++ % jobs == tree)) || continue
-    judge "$file" "$line" "$old" "$new"
-    state=$(cksum <"$file")
-    [[ $verdict != survived ]] || state+=" $tests"
-    row "$verdict" "$file:$line" "$old" '->' "$(trimmed "$new")" "$by"
-    row "$state" "$file" "$old" "$new" "$verdict" "$by" >>"$W/verdicts"
-  done <"$T/left"
+  for seconds in "$few" "$most"; do
+    k=0
+    while IFS=$'\t' read -r file line old new passed; do
+      ((k++ % jobs == tree)) || continue
+      judge "$file" "$line" "$old" "$new" "$seconds" "$passed"
+      state=$(cksum <"$file")
+      [[ $verdict != survived ]] || state+=" $tests"
+      row "$verdict" "$file:$line" "$old" '->' "$(trimmed "$new")" "$by"
+      row "$state" "$file" "$old" "$new" "$verdict" "$by" "$seconds" >>"$W/verdicts"
+    done < <(judged | left "$seconds")
+  done
+}
+
+left() { # SECONDS: FILE, line number, line, NEW, tests passed, of what is not tried so long
+  awk -F '\t' -v OFS='\t' -v seconds="$1" '
+    $1 == "left" || ($1 == "survived" && $6 ~ /\.\.\.$/ && $7 < seconds) {
+      print $2, $3, $4, $5, $6
+    }'
 }
 
 row() { # FIELD...
@@ -340,33 +376,36 @@ row() { # FIELD...
 }
 
 # The chosen ones with their verdict, if they have one for these sources and tests:
-# VERDICT (or left), FILE, line number, line, NEW, by
+# VERDICT (or left), FILE, line number, line, NEW, by, seconds
 judged() {
   awk -F '\t' -v OFS='\t' -v tests="$tests" '
     FILENAME == ARGV[1] {sum[$1] = $2; next}
     FILENAME == ARGV[2] {
       if ($1 == sum[$2] || $1 == sum[$2] " " tests) {
         verdict[$2, $3, $4] = $5
-        by[$2, $3, $4] = $6
+        by[$2, $3, $4] = $6 OFS $7
       }
       next
     }
     {
       known = ($1, $3, $4) in verdict
       print known ? verdict[$1, $3, $4] : "left", $0, known ? by[$1, $3, $4] : ""
-    }' <(
-    for file in "${files[@]}"; do
-      row "$file" "$(cksum <"$file")"
-    done
-  ) "$W/verdicts" "$T/mutants"
+    }' "$T/sums" "$W/verdicts" "$T/mutants"
 }
 
-touch "$W/verdicts"
+touch "$W/verdicts" "$W/times"
 tests=$(cat tests/* 2>/dev/null | cksum)
-choose >"$T/mutants"
-judged | awk -F '\t' '$1 == "left"' | cut -f 2-5 >"$T/left"
-if [[ -s $T/left ]]; then
-  if [[ ! -s $W/times ]]; then # behind, so that a signal need not wait for it
+if [[ ${LIST-} ]]; then
+  cp "$LIST" "$T/mutants" || exit
+else
+  choose >"$T/mutants"
+fi
+for file in "${files[@]}"; do
+  row "$file" "$(cksum <"$file")"
+done >"$T/sums"
+if [[ $(judged | left "$most") ]]; then
+  unseen >"$T/unseen"
+  if [[ -s $T/unseen ]]; then # behind, so that a signal need not wait for it
     (look) &
     wait $! || exit 1
   fi

@@ -76,6 +76,19 @@ resume # of a run that has ended
 end
 check 'it has ended: the same again' cmp -s "$T/whole/out" "$D/out"
 
+# what has been said is not said again: a bed that begins half in a wall
+"$B/settle" --quiet --count 8 --time 0 >"$T/start"
+awk -F '\t' -v OFS='\t' '/^[0-9]/ && !done {$4 = 0.03; done = 1} {print}' \
+  <(unsealed "$T/start") >"$T/scene"
+rm -f "${D:?}"/*
+begin --scene "$T/scene" --time 0.02 --kappa 40 --every 1e-9
+end
+check 'a deep overlap: said once' test "$(grep -c 'overlaps by 0.70' "$T/err")" = 1
+mv "$D/check.old" "$D/check"
+resume
+end
+check 'a deep overlap: not said again' test "$(grep -c 'overlaps by' "$T/err")" = 0
+
 # --- signals ------------------------------------------------------------------
 unbroken "${small[@]}" --time 1
 for signal in INT TERM HUP XCPU; do

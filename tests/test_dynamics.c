@@ -1139,19 +1139,19 @@ static void test_far_states(void) {
   /* their distance is more than a double holds */
   check_state(2, 1.7e308, 5, -1.7e308, GSL_EBADFUNC);
 
-  /* a sphere without contacts that is nowhere, before and after a list was
-     built without it */
+  /* a sphere without contacts that is nowhere, or whose spin nothing but
+     itself has, before and after a list was built without it */
   struct sample s = {.scene = scene_default()};
   CHECK(bed_alloc(&s.bed, 2) == GSL_SUCCESS);
   s.bed.r[0] = s.bed.r[1] = 0.1;
   s.bed.x[1] = 3;
-  for (int c = 0; c < 4; c++) {
+  for (int c = 0; c < 8; c++) {
     struct dynamics *d = new_dynamics(&s, c % 2 ? &all_pairs : &cells);
     double y[18], dydt[18];
     dynamics_pack(d, &s.bed, y);
-    if (c / 2)
+    if (c / 2 % 2)
       CHECK(dynamics_rhs(0, y, dydt, d) == GSL_SUCCESS);
-    y[0] = NAN;
+    y[c < 4 ? 0 : 6] = NAN;
     CHECK(dynamics_rhs(0, y, dydt, d) == GSL_EBADFUNC);
     CHECK(dynamics_rhs(0, y, dydt, d) == GSL_EBADFUNC);
     dynamics_free(d);

@@ -78,8 +78,13 @@ static void test_limits(void) {
                 1e-12);
   }
   struct stiffness_limits l;
-  CHECK(integrate_limits("verlet", &l) == GSL_SUCCESS);
-  CHECK(stiffness_limit_at(&l, 2) == 2);
+  struct {
+    struct stiffness_limits all;
+    double behind;
+  } v = {.behind = 7};
+  CHECK(integrate_limits("verlet", &v.all) == GSL_SUCCESS);
+  CHECK(stiffness_limit_at(&v.all, 2) == 2);
+  CHECK(v.behind == 7); /* as many rays as there are, and no more */
   CHECK(integrate_limits("rkc", &l) == GSL_EINVAL);
   CHECK(integrate_limits("msbdf", &l) == GSL_EINVAL);
   CHECK(integrate_limits("none", &l) == GSL_EINVAL);
