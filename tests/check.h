@@ -2,7 +2,7 @@
 /* The tests' one harness. A failed check prints where and what and the program
    goes on; check_done() prints how many sites (places in the source) checked
    something, then the line "N passed, N failed", and gives the exit status. NaN
-   never passes. With CHECK_FIRST in the environment the first failure ends it. */
+   never passes. With CHECK_FIRST in the environment one failure ends it. */
 #ifndef CHECK_H
 #define CHECK_H
 

@@ -22,11 +22,11 @@
 # of the lines alone, so that more of them (NUMBER) are those and others.
 #
 # What is tried on a mutant are the tests that run its line, as gcov has seen once
-# (B/mutants/cover; minutes, and again for tests that have changed): the quickest first,
-# and those that the header of its file names before others. The first check that fails
-# ends it (CHECK_FIRST). A test fails also by using four times its own time. Equal
-# machine code is no mutant ("void"); those of tests/mutants.equivalent change nothing
-# that can be seen, and it says why.
+# (B/mutants/cover; minutes, and again for tests that have changed): first those that
+# take the least time for each line of the file that they run, and those that its header
+# names before others. The first check that fails ends it (CHECK_FIRST). A test fails
+# also by using four times its own time. Equal machine code is no mutant ("void"); those
+# of tests/mutants.equivalent change nothing that can be seen, and it says why.
 #
 # A broken program may write where it should not: it runs in a scratch copy, with
 # limits, and never as root, since that would include devices.
@@ -190,7 +190,7 @@ tests_of() { # FILE: what its header names, and what has its name
   } | xargs -r -n 1 basename | sort -u
 }
 
-tests_for() { # FILE LINE: what runs it, else what runs its file; the best first
+tests_for() { # FILE LINE: KEY, seconds and TEST of what runs it, else what runs its file
   tests_of "$1" | awk -F '\t' -v OFS='\t' '
     FILENAME == "-" {own[$1] = 1; next}
     FILENAME == ARGV[2] {
@@ -198,9 +198,11 @@ tests_for() { # FILE LINE: what runs it, else what runs its file; the best first
         time[$1] = $2
       next
     }
-    $1 in time {print time[$1] * ($1 in own ? 0.1 : 1), time[$1], $1}' - "$W/times" <(
-      cd "$W/cover" && { grep -lxF -- "$1"$'\t'"$2" * || grep -lF -- "$1"$'\t' *; }
-    ) | sort -k 1,1g
+    FILENAME == ARGV[3] {lines[$1] = $2; next}
+    $1 in time {print time[$1] / lines[$1] * ($1 in own ? 0.1 : 1), time[$1], $1}
+  ' - "$W/times" <(cd "$W/cover" && grep -cF -- "$1"$'\t' * | tr : '\t') <(
+    cd "$W/cover" && { grep -lxF -- "$1"$'\t'"$2" * || grep -lF -- "$1"$'\t' *; }
+  ) | sort -k 1,1g
 }
 
 run_test() { # TEST SECONDS DIRECTORY: whether it passes; the directory is for its files
@@ -305,11 +307,11 @@ judge() { # FILE LINE-NUMBER LINE NEW SECONDS PASSED
     verdict=void by='the same machine code'
   else
     while IFS=$'\t' read -r _ time test; do
-      sum=$(awk -v a="$sum" -v b="$time" 'BEGIN {print a + b}')
       if awk -v s="$sum" -v most="$5" 'BEGIN {exit !(s > most)}'; then
         by+=' ...'
         break
       fi
+      sum=$(awk -v a="$sum" -v b="$time" 'BEGIN {print a + b}')
       if [[ " $6 " == *" $test "* ]]; then
         by+=" $test"
         continue

@@ -582,6 +582,10 @@ for keep in bed geometry touching; do
     -v b="$(stated '(step\/r)^2\/3 =')" \
     'BEGIN {exit !(b > 0 && b < 0.04 && d < b && -d < b)}'
 done
+printf 'x,y,z,r\n0,0,0,0.1\n' >"$T/one.csv" # steps of 0.2/40 m
+hand --format stl --merged --cells 40 "$T/one.csv" >"$T/stl"
+near 'merged: the bound' "$(stated '(step\/r)^2\/3 =')" \
+  "$(awk 'BEGIN {print (0.2 / 40 / 0.1) ^ 2 / 3}')" 1e-5
 refuse 'merged: facets' 2 '--merged: expected --cells' --format stl --merged \
   --facets 80 "$T/bed"
 refuse 'cells of bodies' 2 '--cells: expected --merged' --format stl --cells 9 \

@@ -417,7 +417,8 @@ static void test_solid(gsl_rng *rng) {
     CHECK(solid_volume(&s, box, &v) == GSL_SUCCESS);
     CHECK(wrong == 0);
     CHECK(walled == 2 || cut > 5);
-    CHECK_CLOSE(worst, 0, walled == 2 ? 6e-3 : 3e-3); /* a rim within 1/24 of a cell */
+    CHECK_CLOSE(worst, 0,
+                walled == 2 ? 6e-3 : 3e-3); /* a rim within 1/24 of a cell */
     CHECK_CLOSE(sum * whole, v.total, walled == 2 ? 5e-5 : 1e-5);
     double *again = solid_grid(&s, box, cells, VOXELS_FRACTION, 3, 4);
     CHECK(!memcmp(again, fraction, COUNT * sizeof *again));
@@ -452,6 +453,19 @@ static void test_refused(void) {
   voxels_close(NULL);
 }
 
+/* What is beyond a wall is solid, and a midpoint on it is not beyond. */
+static void test_on_wall(void) {
+  static const double box[6] = {0, 1, 0, 1, 0, 1};
+  static const size_t cells[3] = {4, 4, 4};
+  static const struct container walls = {
+      .box = {0.125, GSL_POSINF, GSL_NEGINF, 0.625, 0.375, 0.875}};
+  const struct solid s = {.container = &walls};
+  double *middle = solid_grid(&s, box, cells, VOXELS_MIDPOINT, 1, 4);
+  for (size_t m = 0; m < 64; m++)
+    CHECK(middle[m] == (m / 4 % 4 == 3 || m / 16 == 0));
+  free(middle);
+}
+
 int main(void) {
   const unsigned long seed = 1;
   printf("random cases: seed %lu\n", seed);
@@ -465,6 +479,7 @@ int main(void) {
   test_distance(rng);
   test_same_bits(rng);
   test_solid(rng);
+  test_on_wall();
   test_refused();
   gsl_rng_free(rng);
   return check_done();
