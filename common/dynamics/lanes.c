@@ -26,8 +26,9 @@ static const double shorten = 0.1, lengthen = 5, careful = 0.8;
    half as many parts again have to grow, for beds that are no better. */
 static const double partners_error = 2;
 
-/* The same for what came and went within the step. Contacts that were there all
-   the time are not meant: their forces sway. */
+/* What a partner may have missed of its velocity since somebody came and went
+   within the step, in tolerances. A partner that rests among others gives most
+   of it on to them: less would cost a fifth more for beds that are no better. */
 static const double missed_error = 10;
 
 /* Times that a part may grow before its step is taken again in whole. */
@@ -102,8 +103,7 @@ static int step(struct lane *lane, size_t depth, double t, double *h);
 /* Takes the level from t to end. */
 static int advance(struct lane *lane, size_t depth, double t, double end) {
   struct level *l = lane->level[depth];
-  const double whole = end - t;
-  double last = whole;
+  double last = end - t;
   while (t < end) {
     const double left = end - t;
     double h = choose(lane, depth, GSL_MIN(left, lengthen * last));
@@ -116,8 +116,7 @@ static int advance(struct lane *lane, size_t depth, double t, double end) {
       return status;
     last = h;
     t = h == left ? end : t + h;
-    if (depth > 0 && t < end &&
-        level_watch_ghosts(l, lane->level[depth - 1], t, whole) != GSL_SUCCESS)
+    if (depth > 0 && t < end && level_watch_ghosts(l, t, h) != GSL_SUCCESS)
       return GSL_EBADFUNC;
     if (trace_append(lane->trace, l, t) != GSL_SUCCESS)
       return GSL_ENOMEM;
@@ -127,6 +126,12 @@ static int advance(struct lane *lane, size_t depth, double t, double end) {
 
 /* --- islands ---------------------------------------------------------------*/
 
+static bool resize(double **x, size_t n) {
+  double *bigger = realloc(*x, n * sizeof **x);
+  *x = bigger ? bigger : *x;
+  return bigger != NULL;
+}
+
 static int reserve_changes(struct changes *c, size_t more, size_t stride) {
   if (c->count + more <= c->size)
     return GSL_SUCCESS;
@@ -135,18 +140,9 @@ static int reserve_changes(struct changes *c, size_t more, size_t stride) {
   if (!row)
     return GSL_ENOMEM;
   c->row = row;
-  double *value = realloc(c->value, size * stride * sizeof *value);
-  if (!value)
+  if (!resize(&c->value, size * stride) || !resize(&c->missed, size * stride) ||
+      !resize(&c->error, size))
     return GSL_ENOMEM;
-  c->value = value;
-  double *error = realloc(c->error, size * sizeof *error);
-  if (!error)
-    return GSL_ENOMEM;
-  c->error = error;
-  double *missed = realloc(c->missed, size * sizeof *missed);
-  if (!missed)
-    return GSL_ENOMEM;
-  c->missed = missed;
   c->size = size;
   return GSL_SUCCESS;
 }
@@ -182,8 +178,8 @@ static int note_changes(struct lane *lane, size_t depth, double end) {
   for (size_t q = 0; q < child->ghosts; q++)
     c->row[c->count + q] = (uint32_t)child->list->order[child->rows + q];
   note_errors(l, child, c->error + c->count);
-  memcpy(c->missed + c->count, child->missed,
-         child->ghosts * sizeof *c->missed);
+  memcpy(c->missed + c->count * l->stride, child->missed,
+         child->ghosts * l->stride * sizeof *c->missed);
   const int status =
       level_feedback(child, end, c->value + c->count * l->stride);
   c->count += child->ghosts;
@@ -339,7 +335,7 @@ static size_t add_changes(struct lane *lane, size_t depth, double h) {
       for (size_t u = ROW_V; u < stride; u++)
         l->change[i * stride + u] += c->value[q * stride + u];
       l->partner_error[i] = GSL_MAX(l->partner_error[i], c->error[q]);
-      if (c->missed[q] > missed_error) {
+      if (level_row_error(l, i, c->missed + q * stride) > missed_error) {
         l->flagged[i] = l->wide = true;
         more++;
       }
@@ -355,6 +351,21 @@ static size_t add_changes(struct lane *lane, size_t depth, double h) {
   return more;
 }
 
+/* Hands on what ghosts missed that are ghosts of the level too. */
+static void hand_on_missed(const struct lane *lane, size_t depth) {
+  struct level *l = lane->level[depth];
+  const struct islands *s = &l->islands;
+  const size_t stride = l->stride;
+  for (size_t k = 0; k < s->count && l->ghosts > 0; k++) {
+    const struct result *r = &lane->results[depth].of[s->row[s->begin[k]]];
+    const struct changes *c = &lane->all->lane[r->lane].changes;
+    for (size_t q = r->changes; q < r->changes_end; q++)
+      for (size_t u = ROW_V; u < stride && c->row[q] >= l->rows; u++)
+        l->missed[(c->row[q] - l->rows) * stride + u] +=
+            c->missed[q * stride + u];
+  }
+}
+
 /* Puts what the islands found into the end of the level's step. */
 static void merge(struct level *l) {
   const size_t stride = l->stride, bytes = stride * sizeof(double);
@@ -366,6 +377,7 @@ static void merge(struct level *l) {
       for (size_t c = ROW_V; c < stride; c++)
         l->f1[i * stride + c] += l->change[i * stride + c];
 }
+
 /* Takes the flagged rows' step again in shorter ones, with their partners too
    where those have to. GSL_FAILURE if that comes to too many. */
 static int refine(struct lane *lane, size_t depth, double t, double h,
@@ -395,6 +407,7 @@ static int refine(struct lane *lane, size_t depth, double t, double h,
       more = add_changes(lane, depth, h);
     if (more == 0 && l->wide == was_wide) {
       merge(l);
+      hand_on_missed(lane, depth);
       l->counts.refined++;
       break;
     }

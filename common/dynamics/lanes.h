@@ -11,12 +11,13 @@
 enum { LANES_LEVELS = 3 };
 
 /* Changes by the rows of an island in the rates of their partners: a row of the
-   level above each, its change, as long as a row, and the largest error that
-   its partners in the island had in the first try, 1: the tolerance. */
+   level above each, its change and the velocity that it missed since somebody
+   came and went within the step, as long as a row each, and the largest error
+   that its partners in the island had in the first try, 1: the tolerance. */
 struct changes {
   size_t count, size;
   uint32_t *row;
-  double *value, *error, *missed;
+  double *value, *missed, *error;
 };
 
 /* The outcome of an island, valid for as long as no other row joins it. */

@@ -86,8 +86,9 @@ void level_free(struct level *l) {
                        l->frozen,
                        l->away,
                        l->cubic,
-                       l->started,
                        l->tried,
+                       l->brief_started,
+                       l->brief_tried,
                        l->missed,
                        l->error,
                        l->wanted,
@@ -97,6 +98,8 @@ void level_free(struct level *l) {
   for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++)
     free(vectors[k]);
   islands_free(&l->islands);
+  free(l->brief.i);
+  free(l->brief.j);
   free(l->flagged);
   free(l->refined);
   free(l->whole);
@@ -140,8 +143,10 @@ int level_reserve(struct level *l) {
       (l->apart && !renew(&l->away, vector)) ||
       !renew(&l->cubic, 4 * ghosts * l->stride + 4) ||
       (l->apart &&
-       (!renew(&l->started, ghosts * l->stride) ||
-        !renew(&l->tried, ghosts * l->stride) || !renew(&l->missed, ghosts))) ||
+       (!renew(&l->tried, ghosts * l->stride) ||
+        !renew(&l->brief_started, ghosts * l->stride) ||
+        !renew(&l->brief_tried, ghosts * l->stride) ||
+        !renew(&l->missed, ghosts * l->stride))) ||
       !renew(&l->error, room) || !renew(&l->wanted, room) ||
       !renew(&l->partner_error, room) || !l->flagged || !l->refined ||
       !l->whole)
@@ -464,66 +469,95 @@ static int apart_rates(struct level *child, const struct level *l,
   return status;
 }
 
-/* Rates of the ghosts by the contacts of the list, into the ghosts' rows of
-   b. */
-static int ghost_rates(struct level *l, double t, double *y) {
+/* Rates of the ghosts by pairs of the list, into the ghosts' rows of b. */
+static int ghost_rates(struct level *l, const struct neighbors *pairs, double t,
+                       double *y) {
   struct contact_list *list = l->list;
   const struct kernel *kernel = l->setting->dynamics->kernel;
   const size_t all = l->rows + l->ghosts;
   const struct contact_part part = {
       .to = all, .sums = list->part[0].sums, .mask = list->part[0].mask};
-  l->counts.contacts += list->near.count;
+  l->counts.contacts += pairs->count;
   level_ghosts(l, t, y);
-  kernel->add_pairs(list, y, list->near.i, list->near.j, list->near.count,
-                    &part);
+  kernel->add_pairs(list, y, pairs->i, pairs->j, pairs->count, &part);
   list->frozen = NULL; /* that of rows */
   const bool finite = kernel->finish(list, y, l->b, 0, all, &part);
   list->frozen = l->away;
   return finite ? GSL_SUCCESS : GSL_EBADFUNC;
 }
 
-/* Rates of child's ghosts at the start of l's step and after its first try. */
-static int first_ghost_rates(struct level *child, const struct level *l,
-                             double t, double h) {
+/* Finds the pairs of a row and a ghost that are apart in both states. */
+static int find_brief(struct level *l, const double *one, const double *other) {
+  const struct neighbors *near = &l->list->near;
+  const struct contact_reach touch[2] = {{.y = one}, {.y = other}};
+  struct neighbors *brief = &l->brief;
+  if (near->count > brief->size) {
+    free(brief->i);
+    free(brief->j);
+    brief->size = near->count + near->count / 2;
+    brief->i = calloc(brief->size, sizeof *brief->i);
+    brief->j = calloc(brief->size, sizeof *brief->j);
+  }
+  brief->count = 0;
+  if (near->count && (!brief->i || !brief->j)) {
+    brief->size = 0;
+    return GSL_ENOMEM;
+  }
+  for (size_t q = 0; q < near->count; q++) {
+    const uint32_t i = near->i[q], j = near->j[q];
+    if (j < l->rows || contact_subset_within(l->list, i, j, &touch[0]) ||
+        contact_subset_within(l->list, i, j, &touch[1]))
+      continue;
+    brief->i[brief->count] = i;
+    brief->j[brief->count++] = j;
+  }
+  return GSL_SUCCESS;
+}
+
+/* Looks at what child does to its ghosts at the start of l's step and after its
+   first try, whose end goes to child->a. */
+static int begin_watch(struct level *child, const struct level *l, double t,
+                       double h) {
   const size_t bytes = child->ghosts * child->stride * sizeof(double);
   const double *rates = child->b + child->rows * child->stride;
   if (child->ghosts == 0)
     return GSL_SUCCESS;
-  memset(child->missed, 0, child->ghosts * sizeof *child->missed);
-  int status = ghost_rates(child, t, child->y0);
-  if (status != GSL_SUCCESS)
-    return status;
-  memcpy(child->started, rates, bytes);
+  memset(child->missed, 0, bytes);
   for (size_t a = 0; a < child->rows; a++)
     copy_row(l->stride, l->y1, child->list->order[a], child->a, a);
-  status = ghost_rates(child, t + h, child->a);
+  int status = ghost_rates(child, &child->list->near, t + h, child->a);
+  if (status != GSL_SUCCESS)
+    return status;
+  memcpy(child->tried, rates, bytes);
+  level_ghosts(child, t, child->y0);
+  status = find_brief(child, child->y0, child->a);
+  if (status != GSL_SUCCESS || child->brief.count == 0)
+    return status;
+  status = ghost_rates(child, &child->brief, t + h, child->a);
+  if (status != GSL_SUCCESS)
+    return status;
+  memcpy(child->brief_tried, rates, bytes);
+  status = ghost_rates(child, &child->brief, t, child->y0);
   if (status == GSL_SUCCESS)
-    memcpy(child->tried, rates, bytes);
+    memcpy(child->brief_started, rates, bytes);
   return status;
 }
 
-int level_watch_ghosts(struct level *child, struct level *l, double t,
-                       double h) {
-  const size_t stride = child->stride;
-  if (child->ghosts == 0)
+int level_watch_ghosts(struct level *l, double t, double h) {
+  const size_t stride = l->stride;
+  if (l->ghosts == 0 || l->brief.count == 0)
     return GSL_SUCCESS;
-  const int status = ghost_rates(child, t, child->y0);
+  const int status = ghost_rates(l, &l->brief, t, l->y0);
   if (status != GSL_SUCCESS)
     return status;
-  for (size_t q = 0; q < child->ghosts; q++) {
-    const size_t i = child->list->order[child->rows + q];
-    const double *rates = child->b + (child->rows + q) * stride;
-    const double *one = child->started + q * stride,
-                 *other = child->tried + q * stride;
-    double beyond[ROW_SPIN] = {0};
-    for (size_t c = ROW_V; c < stride; c++)
-      beyond[c] = GSL_MAX(0, GSL_MAX(rates[c] - GSL_MAX(one[c], other[c]),
-                                     GSL_MIN(one[c], other[c]) - rates[c]));
-    const double error = 0.4 * h * level_row_error(l, i, beyond);
-    child->missed[q] = GSL_MAX(child->missed[q], error);
-    if (i >= l->rows) /* a ghost of l's too */
-      l->missed[i - l->rows] = GSL_MAX(l->missed[i - l->rows], error);
-  }
+  const double *rates = l->b + l->rows * stride;
+  for (size_t q = 0; q < l->ghosts; q++)
+    for (size_t c = ROW_V; c < stride; c++) {
+      const size_t k = q * stride + c;
+      const double one = l->brief_started[k], other = l->brief_tried[k];
+      l->missed[k] += h * (GSL_MAX(0, rates[k] - GSL_MAX(one, other)) +
+                           GSL_MIN(0, rates[k] - GSL_MIN(one, other)));
+    }
   return GSL_SUCCESS;
 }
 
@@ -562,7 +596,7 @@ int level_refine(struct level *child, const struct level *l, size_t island,
   child->power.length = 0;
   child->served = 0;
   const int rates = apart_rates(child, l, child->y0, l->y0, child->away);
-  return rates == GSL_SUCCESS ? first_ghost_rates(child, l, t, h) : rates;
+  return rates == GSL_SUCCESS ? begin_watch(child, l, t, h) : rates;
 }
 
 int level_catch_up(struct level *child, const struct level *l, double h,
@@ -588,7 +622,7 @@ int level_catch_up(struct level *child, const struct level *l, double h,
 int level_feedback(struct level *child, double t, double change[]) {
   const size_t ghosts = child->ghosts * child->stride;
   const double *rates = child->b + child->rows * child->stride;
-  const int status = ghost_rates(child, t, child->y0);
+  const int status = ghost_rates(child, &child->list->near, t, child->y0);
   for (size_t k = 0; k < ghosts && status == GSL_SUCCESS; k++)
     change[k] = rates[k] - child->tried[k];
   return status;

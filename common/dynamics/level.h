@@ -51,10 +51,14 @@ struct level {
   /* Ghosts' unknowns are cubics of the time since start: four coefficients,
      each ghosts * stride. */
   double *cubic, start;
-  /* Of an island: rates of each ghost by its rows at the start of the step
-     above and after its first try, and the largest error in velocity, 1 being
-     the tolerance, that going beyond both may have made since. */
-  double *started, *tried, *missed;
+  /* Of an island, a row for each ghost: rates by its rows after the first try
+     of the step above. */
+  double *tried;
+  /* Its pairs of a row and a ghost that were apart at the start of the step
+     above and after its first try; the ghosts' rates by them at both times, and
+     what going beyond these has made of the ghosts' velocities since. */
+  struct neighbors brief;
+  double *brief_started, *brief_tried, *missed;
 
   double *error;          /* of each row in the last try, 1: the tolerance */
   double *wanted;         /* the step that each row would take (s) */
@@ -123,11 +127,10 @@ int level_refine(struct level *child, const struct level *l, size_t island,
 int level_catch_up(struct level *child, const struct level *l, double h,
                    double *error);
 
-/* Notes what child, now at t within l's step of length h, does to its ghosts: a
-   sphere that is hit and bounces off again leaves no change in their rates at
-   the step's end. GSL_SUCCESS, GSL_EBADFUNC. */
-int level_watch_ghosts(struct level *child, struct level *l, double t,
-                       double h);
+/* Notes what l, an island now at t after a step of length h, does to its
+   ghosts: a sphere that is hit and bounces off again leaves no change in their
+   rates at the end of the step above. GSL_SUCCESS, GSL_EBADFUNC. */
+int level_watch_ghosts(struct level *l, double t, double h);
 
 /* Changes by the rows of child, now at t + h, in the rates at the end of l's
    step: change gets a row for each ghost of child. GSL_SUCCESS,
