@@ -7,13 +7,13 @@
 #   tests/mutants.sh [NUMBER [SEED [FILE...]]]
 #
 # JOBS=1    so many at a time, each in a tree of its own
-# FEW=20    seconds of tests for a mutant at first; then those that have survived go on
+# FEW=5     seconds of tests for a mutant at first; then those that have survived go on
 # MOST=60   to so many; what has survived these counts as survived
 # LIST=F    mutants of one's own: FILE, line number, its text, a line in its place; tabs
 #           between. NUMBER is then of no account
 # B=build   where results are kept (B/mutants): when started again it goes on. A
-#           killed mutant is tried again when its file has changed, a survivor when
-#           any file or test has
+#           mutant is tried again when its file has changed, a survivor also by tests
+#           that are new or have changed
 #
 # Mutants are spread over files by their length and over kinds: comparisons shifted
 # by the case of equality, conditions negated, && and ||, + - * /, constants, true,
@@ -31,10 +31,11 @@
 # A broken program may write where it should not: it runs in a scratch copy, with
 # limits, and never as root, since that would include devices.
 set -u -o pipefail
+shopt -s extglob
 export LC_ALL=C.UTF-8 OMP_WAIT_POLICY=passive
 unset MAKEFLAGS MFLAGS MAKELEVEL # of the make that has started this
 number=${1:-300} seed=${2:-1}
-jobs=${JOBS:-1} few=${FEW:-20} most=${MOST:-60}
+jobs=${JOBS:-1} few=${FEW:-5} most=${MOST:-60}
 safely=()
 if ((EUID == 0)); then
   command -v setpriv >/dev/null || {
@@ -293,49 +294,57 @@ lines() { # DIRECTORY of what gcov wrote: FILE, line, of those that were run
 }
 
 # Sets verdict and by, in the tree where we are, after at most so many seconds of
-# tests, of which it may have passed some before
+# tests, of which it may have passed some before; false if there is nothing new
 judge() { # FILE LINE-NUMBER LINE NEW SECONDS PASSED
-  local file=$1 object=build/obj/${1%.?} sum=0 first=libdem.a test time targets
+  local file=$1 object=build/obj/${1%.?} sum=0 first=libdem.a test time seen plan=()
+  verdict=survived by=
+  while IFS=$'\t' read -r _ time test; do
+    if awk -v s="$sum" -v most="$5" 'BEGIN {exit !(s > most)}'; then
+      by+=' ...'
+      break
+    fi
+    sum=$(awk -v a="$sum" -v b="$time" 'BEGIN {print a + b}')
+    seen=$test=$(cksum <"tests/$test" | tr ' ' :)
+    if [[ " $6 " == *" $seen "* ]]; then
+      by+=" $seen"
+    else
+      plan+=("$test $time $seen")
+    fi
+  done < <(tests_for "$file" "$3")
+  [[ ${#plan[@]} -gt 0 || ! $6 ]] || return
   [[ $file == common/* ]] || first=${file%%/*}
   cp -p "$file" "$T/$tree.whole"
   NEW=$4 awk -v n="$2" 'NR == n {print ENVIRON["NEW"]; next} {print}' \
     "$T/$tree.whole" >"$file"
-  verdict=survived by=
   if ! "${make[@]}" "${whole[@]}" "build/$first" >/dev/null 2>&1; then
     verdict=void by='does not compile'
   elif [[ $file == *.c ]] && same "$object"*.o; then
     verdict=void by='the same machine code'
+  elif [[ ${#plan[@]} -eq 0 ]]; then
+    by='no test runs it'
   else
-    while IFS=$'\t' read -r _ time test; do
-      if awk -v s="$sum" -v most="$5" 'BEGIN {exit !(s > most)}'; then
-        by+=' ...'
-        break
-      fi
-      sum=$(awk -v a="$sum" -v b="$time" 'BEGIN {print a + b}')
-      if [[ " $6 " == *" $test "* ]]; then
-        by+=" $test"
-        continue
-      fi
-      targets=("${programs[@]}")
-      [[ $test != *.c ]] || targets=("build/tests/${test%.c}")
-      if ! "${make[@]}" "${whole[@]}" "${targets[@]}" >/dev/null 2>&1; then
-        echo "mutants: cannot be built: ${targets[*]}" >&2
-      elif run_test "$test" "$time" "$T/$tree.run"; then
-        by+=" $test"
-      else
-        verdict=killed by=$test
-        break
-      fi
-    done < <(tests_for "$file" "$3")
-    by=${by# }
-    [[ $by ]] || by='no test runs it'
+    try "${plan[@]}"
   fi
-  [[ $verdict != survived ]] ||
-    ! cut -f -3 tests/mutants.equivalent |
-      grep -qxF "$file"$'\t'"$3"$'\t'"$(trimmed "$4")" || verdict=equivalent
   cp -p "$T/$tree.whole" "$file"
   cp -r build/whole/. build/obj/
   [[ $file == *.c ]] || rm -rf build/obj/tests # which may have had the header
+}
+
+try() { # 'TEST SECONDS NAME'...: the rest of judge
+  local test time seen targets
+  for test; do
+    read -r test time seen <<<"$test"
+    targets=("${programs[@]}")
+    [[ $test != *.c ]] || targets=("build/tests/${test%.c}")
+    if ! "${make[@]}" "${whole[@]}" "${targets[@]}" >/dev/null 2>&1; then
+      echo "mutants: cannot be built: ${targets[*]}" >&2
+    elif run_test "$test" "$time" "$T/$tree.run"; then
+      by="$seen $by"
+    else
+      verdict=killed by=$test
+      return
+    fi
+  done
 }
 
 same() { # OBJECT...: whether all are those of the whole source
@@ -350,26 +359,24 @@ trimmed() {
 }
 
 work() { # TREE: every jobs-th of those that are left, then of those that survived
-  local tree=$1 seconds k file line old new passed verdict by state
+  local tree=$1 seconds k file line old new passed verdict by
   tree "$tree" "${whole[@]}" && cp -r build/obj build/whole || return
   for seconds in "$few" "$most"; do
     k=0
     while IFS=$'\t' read -r file line old new passed; do
       ((k++ % jobs == tree)) || continue
-      judge "$file" "$line" "$old" "$new" "$seconds" "$passed"
-      state=$(cksum <"$file")
-      [[ $verdict != survived ]] || state+=" $tests"
-      row "$verdict" "$file:$line" "$old" '->' "$(trimmed "$new")" "$by"
-      row "$state" "$file" "$old" "$new" "$verdict" "$by" "$seconds" >>"$W/verdicts"
-    done < <(judged | left "$seconds")
+      judge "$file" "$line" "$old" "$new" "$seconds" "$passed" || continue
+      row "$verdict" "$file:$line" "$old" '->' "$(trimmed "$new")" \
+        "${by//=+([0-9:])/}"
+      row "$(cksum <"$file")" "$file" "$old" "$new" "$verdict" "$by" >>"$W/verdicts"
+    done < <(judged | left)
   done
 }
 
-left() { # SECONDS: FILE, line number, line, NEW, tests passed, of what is not tried so long
-  awk -F '\t' -v OFS='\t' -v seconds="$1" '
-    $1 == "left" || ($1 == "survived" && $6 ~ /\.\.\.$/ && $7 < seconds) {
-      print $2, $3, $4, $5, $6
-    }'
+# FILE, line number, line, NEW, tests passed, of those that are to be tried, maybe by
+# no more tests than before
+left() {
+  awk -F '\t' -v OFS='\t' '$1 == "left" || $1 == "survived" {print $2, $3, $4, $5, $6}'
 }
 
 row() { # FIELD...
@@ -377,26 +384,32 @@ row() { # FIELD...
   echo "$*"
 }
 
-# The chosen ones with their verdict, if they have one for these sources and tests:
-# VERDICT (or left), FILE, line number, line, NEW, by, seconds
+# The chosen ones with their verdict, if they have one for this file: VERDICT (or
+# left), FILE, line number, line, NEW, by
 judged() {
-  awk -F '\t' -v OFS='\t' -v tests="$tests" '
+  awk -F '\t' -v OFS='\t' '
+    function trimmed(s) {
+      gsub(/^ +| +$/, "", s)
+      return s
+    }
     FILENAME == ARGV[1] {sum[$1] = $2; next}
-    FILENAME == ARGV[2] {
-      if ($1 == sum[$2] || $1 == sum[$2] " " tests) {
+    FILENAME == ARGV[2] {argued[$1, $2, $3]; next}
+    FILENAME == ARGV[3] {
+      if ($1 == sum[$2]) {
         verdict[$2, $3, $4] = $5
-        by[$2, $3, $4] = $6 OFS $7
+        by[$2, $3, $4] = $6
       }
       next
     }
     {
-      known = ($1, $3, $4) in verdict
-      print known ? verdict[$1, $3, $4] : "left", $0, known ? by[$1, $3, $4] : ""
-    }' "$T/sums" "$W/verdicts" "$T/mutants"
+      is = ($1, $3, $4) in verdict ? verdict[$1, $3, $4] : "left"
+      if (is == "survived" && ($1, $3, trimmed($4)) in argued)
+        is = "equivalent"
+      print is, $0, by[$1, $3, $4]
+    }' "$T/sums" tests/mutants.equivalent "$W/verdicts" "$T/mutants"
 }
 
 touch "$W/verdicts" "$W/times"
-tests=$(cat tests/* 2>/dev/null | cksum)
 if [[ ${LIST-} ]]; then
   cp "$LIST" "$T/mutants" || exit
 else
@@ -405,7 +418,7 @@ fi
 for file in "${files[@]}"; do
   row "$file" "$(cksum <"$file")"
 done >"$T/sums"
-if [[ $(judged | left "$most") ]]; then
+if [[ $(judged | left) ]]; then
   unseen >"$T/unseen"
   if [[ -s $T/unseen ]]; then # behind, so that a signal need not wait for it
     (look) &
