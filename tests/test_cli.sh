@@ -678,6 +678,19 @@ check '--until-rest, not reached: message' one_line settle \
   't=0.2: .*moved.*expected'
 check '--until-rest, not reached: mark' test "$(key status "$T/out" |
   cut -c 1-5)" = limit
+run settle --scene "$T/rests" --until-rest --time 9
+check '--until-rest, not seen for so long' one_line settle \
+  't=9: seen for 2 s, expected 5 s'
+# down a slope of 0.15, below vmin: slowly, but for ever. In 5 sqrt(r/g)/0.1 it
+# loses m g_x v_x of that, in shares of m g r.
+bed "$T/slides" "# model=friction\n$floor" '0\t0.5\t0.5\t0.0965\t0.1\n' "$ok"
+run settle --scene "$T/slides" --gravity 1.4715,0,-9.81 --until-rest --time 8
+share=$(awk -v v="$(value 1 vx "$T/out")" 'BEGIN {g = sqrt(1.4715 ^ 2 + 9.81 ^ 2)
+  print 100 * 5 * sqrt(9.81 / g) * v * 1.4715 / (g * 0.1)}')
+check '--until-rest, it creeps' one_line settle \
+  't=8: in .* s the bed lost .* % of the energy of its height, expected below 0.5 %'
+check '--until-rest, what it lost' is_close \
+  "$(sed -n 's/.* the bed lost \([^ ]*\) %.*/\1/p' "$T/err")" "$share" 0.06
 
 # --- analyze and bounce, at all -----------------------------------------------
 succeed 'analyze' analyze "$T/good"

@@ -266,6 +266,18 @@ static void test_tube(gsl_rng *rng) {
   }
   CHECK_CLOSE(quarters, alone, error);
   CHECK(error < 1e-8);
+  /* and of a place where all lengths are 64 times as long */
+  const double large[6] = {-64, 64, 1.28, 64, 33.28, 57.6};
+  double as_small[6];
+  for (int k = 0; k < 6; k++)
+    as_small[k] = large[k] / 64;
+  const struct solid_volume small = measured(&s, as_small);
+  tube.radius *= 64;
+  r[0] *= 64;
+  for (int k = 0; k < 3; k++)
+    x[k] *= 64;
+  CHECK_REL(measured(&s, large).spheres, 64. * 64 * 64 * small.spheres, 1e-12);
+  r[0] /= 64;
   /* leaning, with an end across it, and bridges */
   static const double across[1][4] = {{0.6, 0, -0.8, -0.1}};
   uint32_t(*ends)[2] = NULL;

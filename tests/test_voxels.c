@@ -93,6 +93,10 @@ static void cell_case(const struct ball_cell *q, const double c[3], double r,
   CHECK_CLOSE(got, want, local + coarse + own);
   /* and where the cell is, at the rounding of its place */
   CHECK_CLOSE(ball_cell_volume(q, c, r, cell), want, local + coarse + own);
+  /* all lengths by a power of two: no bit changes */
+  for (int k = 0; k < 6; k++)
+    box[k] *= 64;
+  CHECK(ball_cell_volume(q, origin, 64 * r, box) == 64. * 64 * 64 * got);
 }
 
 static void random_cells(gsl_rng *rng, const struct ball_cell *q, double h,
