@@ -144,14 +144,15 @@ within 'profile across periodic sides' "$(paste "$T/a.tsv" "$T/b.tsv" | awk '
 check 'export states the fraction of the cell' grep -q \
   "fraction $("$B/analyze" "$T/periodic.bed" | awk 'NR == 2 {
     print substr($3, 1, 10) }')" "$T/err"
-# a sphere on a corner of the cell is one part, also where the sides are short
+# a sphere on a corner of the cell is one part, also where the sides are short, and
+# one in the middle is another
 for base in 0.8,0.7 1.6,1.4; do
   printf '%b' "# format=bed-1\n# base=$base\n# periodic=x y\n" \
-    'x\ty\tz\tr\n0\t0\t0.35\t0.2\n# status=ok\n' > "$T/corner.bed"
+    'x\ty\tz\tr\n0\t0\t0.35\t0.2\n0.4\t0.35\t0.35\t0.2\n# status=ok\n' > "$T/corner.bed"
   "$B/analyze" export --format raw --cells 16 --box "0,${base/,/,0,},0,0.7" \
     --output "$T/raw" "$T/corner.bed" 2> "$T/err"
   check "a sphere on a corner of $base" grep -q \
-    'also across periodic sides, make 1 solid part and 1 pore part' "$T/err"
+    'also across periodic sides, make 2 solid parts and 1 pore part' "$T/err"
 done
 # the same bed, moved by any vector across its periodic sides: places and box
 moved() { # DX DY: the bed, wrapped by its reader alone

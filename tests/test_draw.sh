@@ -116,6 +116,12 @@ check 'only what is seen is drawn' test "$(DEM_PLOTS=$T/copy "$B/analyze" draw \
 check 'from behind others are seen' test "$(DEM_PLOTS=$T/copy "$B/analyze" \
   draw --color id --view 210,72 "$T/five.csv" | cut -f 5 | tail -n +3 |
   sort | tr '\n' ' ')" = '1 2 4 '
+# colours by speed: Pythagorean velocities, far apart
+printf '%s\n' x,y,z,r,vx,vy,vz 0,0,0,.1,3,4,0 1,0,0,.1,0,5,12 2,0,0,.1,1,2,2 \
+  >"$T/speeds.csv"
+check 'colours are speeds' test "$(DEM_PLOTS=$T/copy "$B/analyze" draw \
+  --color speed "$T/speeds.csv" | cut -f 5 | tail -n +3 | sort -n | tr '\n' ' ')" \
+  = '3 5 13 '
 "$B/analyze" draw --output "$T/bed.png" "$T/bed"
 
 # the same spheres in another format: the same bytes

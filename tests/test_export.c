@@ -399,6 +399,26 @@ static size_t offset_of(const struct bytes *b, const char *name) {
   return offset ? strtoull(offset + 8, NULL, 10) : 0;
 }
 
+/* Vectors have three components, all others one. */
+static void check_components(const struct bytes *b) {
+  size_t arrays = 0;
+  const char *at = strstr((const char *)b->at, "<Piece ");
+  CHECK(at != NULL);
+  for (; at && (at = strstr(at, "<DataArray ")) != NULL; at++) {
+    char type[20], name[40];
+    size_t components = 0;
+    CHECK(sscanf(at,
+                 "<DataArray type=\"%19[^\"]\" Name=\"%39[^\"]\" "
+                 "NumberOfComponents=\"%zu\"",
+                 type, name, &components) == 3);
+    const bool vector = !strcmp(name, "Points") || strstr(name, "velocity");
+    if (!CHECK(components == (vector ? 3 : 1)))
+      fprintf(stderr, "  %s\n", name);
+    arrays++;
+  }
+  CHECK(arrays > 6);
+}
+
 static void doubles_case(const struct bytes *b, const char *name, size_t count,
                          const double *want) {
   const size_t at = appended(b) + offset_of(b, name);
@@ -411,6 +431,7 @@ static void doubles_case(const struct bytes *b, const char *name, size_t count,
 
 static void test_vtp(const struct bed *bed) {
   const struct bytes b = run("--format vtp");
+  check_components(&b);
   doubles_case(&b, "Points", 3 * bed->n, bed->x);
   doubles_case(&b, "radius", bed->n, bed->r);
   doubles_case(&b, "mass", bed->n, bed->m);
@@ -434,6 +455,7 @@ static void test_network(const struct bed *bed) {
   CHECK(network_find(&w, &scene, bed, 0) == GSL_SUCCESS);
   network_mark(&w, 0, 0);
   const struct bytes b = run("--format vtp --network --scale 2");
+  check_components(&b);
   size_t count = 0, feet = 0;
   double *normal = calloc(bed->n + w.count, sizeof *normal),
          *gap = calloc(bed->n + w.count, sizeof *gap);

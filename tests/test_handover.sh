@@ -557,6 +557,10 @@ check 'openfoam: the surface' cmp -s "$T/stl" \
   "$T/foam/constant/triSurface/spheres.stl"
 check 'openfoam: the block' [ "$(sed -n '/^vertices/,/^edges/p' \
   "$T/foam/system/blockMeshDict" | tr -d '\n')" = 'vertices(    (1 0 0)    (1.5 0 0)    (1.5 0.5 0)    (1 0.5 0)    (1 0 0.5)    (1.5 0 0.5)    (1.5 0.5 0.5)    (1 0.5 0.5));blocks(    hex (0 1 2 3 4 5 6 7) (40 40 40) simpleGrading (1 1 1));edges ();' ]
+hand --format openfoam --box 0,1,0,0.5,0,0.25 --cells 16 --output "$T/cubes" \
+  "$T/geometry"
+check 'openfoam: its cells are cubes' grep -qF '(16 8 4) simpleGrading' \
+  "$T/cubes/system/blockMeshDict"
 hand --format csv --scale 0.5 --offset 1,0,0 "$T/geometry" >"$T/m"
 check 'openfoam: a point in the pore' awk -F , -v p="$(sed -n \
   's/^ *locationInMesh (\(.*\));/\1/p' "$T/foam/system/snappyHexMeshDict")" '
