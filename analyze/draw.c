@@ -57,6 +57,7 @@ int verb_draw(int argc, char **argv) {
   picture_measure(&picture, &bed, frames_header(&frames));
   picture_write(&picture, &bed, "bed.tsv");
   bed_free(&bed);
+  picture_of(&picture, &frames);
   frames_close(&frames);
 
   const char *drawn = picture_path(&picture, svg ? "bed.svg" : "bed.png");

@@ -315,8 +315,9 @@ static void write_series(const struct request *q, struct frames *frames) {
   if (q->format->series) {
     list_name = series_name(&pattern);
     output_open(&list, list_name);
+    fprintf(list.stream, "<?xml version=\"1.0\"?>\n");
+    origin_write_xml(list.stream, NULL);
     fprintf(list.stream,
-            "<?xml version=\"1.0\"?>\n"
             "<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n");
   }
   for (size_t number = 0; frames_next(frames, &bed); number++) {
@@ -454,7 +455,8 @@ int verb_export(int argc, char **argv) {
       {.name = "type", .type = OPTION_TEXT, .value = &type,
        .choices = type_names, .help = "of a voxel's number"},
       {.name = "threads", .type = OPTION_SIZE, .value = &q.write.threads,
-       .most = 1024, .unit = "0: all cores", .help = "threads, for voxels"},
+       .most = 1024, .unit = "0: all cores", .help = "threads, for voxels",
+       .silent = true},
       {.name = "facets", .type = OPTION_SIZE, .value = &q.write.facets,
        .least = 20, .most = 2e6, .unit = "the next of 20 k^2",
        .help = "of a sphere in stl"},

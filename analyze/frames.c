@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -158,6 +159,21 @@ const char *frames_status(const struct frames *f) {
   const struct bed_header *h = frames_header(f);
   const char *status = bed_header_get(h, "status");
   return status ? status : bed_reader_is_cut(f->reader) ? "cut" : "ok";
+}
+
+char *frames_origin(const struct frames *f) {
+  static const char between[] = ", checksum ";
+  char name[strlen(f->name) + 1];
+  strcpy(name, f->name);
+  char *const word = command_words(1, (char *[]){name});
+  const char *sum = bed_reader_sum(f->reader);
+  const size_t size = strlen(word) + sizeof between + (sum ? strlen(sum) : 0);
+  char *text = realloc(word, size);
+  if (!text)
+    die(EXIT_IO, "out of memory");
+  if (sum)
+    strcat(strcat(text, between), sum);
+  return text;
 }
 
 void frames_close(struct frames *f) {

@@ -32,7 +32,7 @@ struct frames_options {
   {.name = "allow-partial", .type = OPTION_FLAG, .value = &(s).allow_partial,  \
    .help = "take a file that is cut short or marked as failed"},               \
   {.name = "quiet", .type = OPTION_FLAG, .value = &(s).quiet,                  \
-   .help = "no progress on a terminal"}
+   .help = "no progress on a terminal", .silent = true}
 /* clang-format on */
 
 struct frames {
@@ -83,6 +83,11 @@ struct bed_header frames_copy_header(const struct frames *f);
 /* How the input ended, for a bed made from it: what was taken as it is with
    --allow-partial stays marked. */
 const char *frames_status(const struct frames *f);
+
+/* The file of the frame just read and the frame's checksum, by which one finds
+   the bed that an export is of: "bed.tsv, checksum 0bee50ec"; quoted as
+   command_words does. To be freed. */
+char *frames_origin(const struct frames *f);
 
 /* How much of the work on this frame is done, from 0 to 1 (program/progress.h).
    frames_next and frames_close tell by themselves. */

@@ -2,6 +2,7 @@
 /* movie: all frames as an animation of one view and one scale of colours. A
    GIF is put together by gnuplot, any other kind by ffmpeg. */
 #include <stdlib.h>
+#include <string.h>
 #include "frames.h"
 #include "picture.h"
 #include "verbs.h"
@@ -74,6 +75,7 @@ int verb_movie(int argc, char **argv) {
   struct frames frames;
   frames_open(&frames, &input, argc, argv, operand);
   const size_t count = read_frames(&frames, &picture);
+  picture_of(&picture, &frames);
   frames_close(&frames);
   draw_frames(&picture, count);
 
@@ -94,10 +96,16 @@ int verb_movie(int argc, char **argv) {
   } else {
     const char *pictures = picture_path(&picture, "%d.png");
     snprintf(number, sizeof number, "%.9g", rate);
-    const char *const argv_video[] = {"ffmpeg",  "-v", "error",  "-framerate",
-                                      number,    "-i", pictures, "-pix_fmt",
-                                      "yuv420p", made, NULL};
+    const size_t size = strlen(picture.origin) + 16;
+    char *const comment = malloc(size);
+    if (!comment)
+      die(EXIT_IO, "out of memory");
+    snprintf(comment, size, "comment=%s", picture.origin);
+    const char *const argv_video[] = {
+        "ffmpeg", "-v",       "error",   "-framerate", number, "-i", pictures,
+        "-pix_fmt", "yuv420p", "-metadata", comment,   made,   NULL};
     picture_run(&picture, "ffmpeg", argv_video);
+    free(comment);
   }
   progress_end(&picture.progress);
   picture_deliver(&picture, made);

@@ -12,9 +12,11 @@
 #include <unistd.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
+#include "label.h"
 #include "measure.h"
 #include "platform/system.h"
 #include "program/litter.h"
+#include "program/origin.h"
 #include "geometry/neighbors.h"
 
 enum { HEIGHT, SPEED, RADIUS, CONTACTS, ID };
@@ -255,6 +257,12 @@ void picture_write(struct picture *p, const struct bed *b, const char *name) {
   free(value);
 }
 
+void picture_of(struct picture *p, const struct frames *f) {
+  char *const bed = frames_origin(f);
+  p->origin = origin_text(bed);
+  free(bed);
+}
+
 /* Programs that draw. */
 
 /* The first line of what a program said that says something. */
@@ -366,10 +374,7 @@ void picture_deliver(struct picture *p, const char *path) {
   FILE *in = fopen(path, "rb");
   if (!in)
     die(EXIT_IO, "%s: %s", path, strerror(errno));
-  char part[1 << 14];
-  for (size_t n; (n = fread(part, 1, sizeof part, in)) > 0;)
-    if (fwrite(part, 1, n, p->file.stream) != n)
-      break; /* what follows finds the error */
+  label_copy(in, p->file.stream, p->origin); /* what follows finds an error */
   const bool failed = ferror(in);
   fclose(in);
   if (failed)
@@ -379,4 +384,5 @@ void picture_deliver(struct picture *p, const char *path) {
   else
     finish_output();
   remove_scratch(p);
+  free(p->origin);
 }

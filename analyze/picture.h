@@ -5,7 +5,7 @@
 #ifndef PICTURE_H
 #define PICTURE_H
 
-#include "files/bed_io.h"
+#include "frames.h"
 #include "program/files.h"
 #include "program/command_line.h"
 #include "program/progress.h"
@@ -24,6 +24,7 @@ struct picture {
   bool fixed[6];    /* a wall of the scene */
   double low, high; /* of what the colours show */
   size_t measured;
+  char *origin; /* what it says of itself */
 };
 
 /* A quantity that colours can show. */
@@ -59,6 +60,9 @@ const char *picture_path(struct picture *p, const char *name);
 void picture_measure(struct picture *p, const struct bed *b,
                      const struct bed_header *h);
 void picture_write(struct picture *p, const struct bed *b, const char *name);
+
+/* Has the picture say that it is of this bed, before frames_close. */
+void picture_of(struct picture *p, const struct frames *f);
 
 /* Draws what picture_write wrote; output ends in .png or .svg. */
 void picture_draw(struct picture *p, const char *name, const char *output);

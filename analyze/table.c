@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "files/numbers.h"
+#include "program/origin.h"
 
 struct table_cell {
   double n, mean, squares; /* of deviations from the mean, summed */
@@ -50,6 +51,8 @@ void table_frame(struct table *t, enum table_layout layout, const char *names) {
   t->names = names;
   if (t->frames_count)
     put_gap(t);
+  else
+    origin_of_table();
   if (!t->frames_count || layout == TABLE_BLOCKS)
     put_names(t);
   begin(&t->each, true);

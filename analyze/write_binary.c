@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Shared by binary formats: byte order and the frame of VTK's XML. */
+/* Shared by formats: what made a file, byte order, the frame of VTK's XML. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
-#include "program/options.h"
-#include "program/version.h"
+#include "program/command_line.h"
 #include "writers.h"
 
 static bool little_endian(void) {
@@ -62,11 +62,22 @@ void write_check_single(const struct shape *s, double edge) {
       b->t, edge, farthest, float_spacing(farthest), remedy);
 }
 
+void write_origin(FILE *out, const struct origin_style *s,
+                  const struct write_frame *f) {
+  char *const bed = frames_origin(f->shape->frames);
+  origin_write(out, s, command_line(), bed);
+  free(bed);
+}
+
 void write_vtk_start(FILE *out, const char *kind, const char *attributes,
-                     const char *note, double t) {
+                     const struct write_frame *f) {
+  const char *note = shape_note(f->shape);
+  fprintf(out, "<?xml version=\"1.0\"?>\n");
+  char *const bed = frames_origin(f->shape->frames);
+  origin_write_xml(out, bed);
+  free(bed);
   fprintf(out,
-          "<?xml version=\"1.0\"?>\n"
-          "<!-- analyze export " DEM_VERSION "; lengths in m, t in s -->\n"
+          "<!-- lengths in m, t in s -->\n"
           "<VTKFile type=\"%s\" version=\"1.0\" byte_order=\"LittleEndian\" "
           "header_type=\"UInt64\">\n",
           kind);
@@ -76,7 +87,7 @@ void write_vtk_start(FILE *out, const char *kind, const char *attributes,
           "<%s%s>\n<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" "
           "NumberOfTuples=\"1\" format=\"ascii\">%.17g</DataArray>\n"
           "</FieldData>\n",
-          kind, attributes, t);
+          kind, attributes, f->bed->t);
 }
 
 void write_vtk_element(FILE *out, const struct vtk_array *a, uint64_t *offset) {

@@ -13,7 +13,6 @@
 #include "geometry/solid.h"
 #include "measure.h"
 #include "program/files.h"
-#include "program/version.h"
 #include "writers.h"
 
 enum { MOST_BALLS = 1000 }; /* its MAX_BALLS_COUNT */
@@ -77,11 +76,14 @@ static void check(const struct shape *s, const struct domain *d) {
 
 /* A file Params of somebody else is more than this part of one. */
 static void check_params(const char *folder) {
-  static const char ours[] = "# analyze export";
-  char *path = measure_alloc(strlen(folder) + 16, 1), line[sizeof ours] = "";
+  /* until version 0.2.0: # analyze export */
+  static const char *const ours[] = {"# program=analyze", "# analyze export"};
+  char *path = measure_alloc(strlen(folder) + 16, 1), line[32] = "";
   snprintf(path, strlen(folder) + 16, "%s/Params", folder);
   FILE *in = fopen(path, "r");
-  if (in && (!fgets(line, sizeof line, in) || strcmp(line, ours)))
+  const bool any = in && fgets(line, sizeof line, in);
+  if (in && !(any && (!strncmp(line, ours[0], strlen(ours[0])) ||
+                      !strncmp(line, ours[1], strlen(ours[1])))))
     die(EXIT_USAGE,
         "--output %s: its Params is not of analyze export, expected "
         "another folder",
@@ -109,12 +111,13 @@ static void put_line(FILE *out, const char *name, double value,
   fprintf(out, "%-15s %s%s\n", name, text, rest);
 }
 
-static void write_params(FILE *out, struct shape *s, const struct domain *d) {
+static void write_params(FILE *out, const struct write_frame *f,
+                         const struct domain *d) {
+  struct shape *s = f->shape;
   const struct bed *b = &s->bed;
   int suggested = widths[WIDTHS - 1];
-  fprintf(out,
-          "# analyze export " DEM_VERSION
-          ", a part of Params for data/spheres_positions.txt\n# %s\n",
+  write_origin(out, &origin_comment, f);
+  fprintf(out, "# a part of Params for data/spheres_positions.txt\n# %s\n",
           s->statement);
   fprintf(out, "# Mean of the phase field over the same box:\n");
   for (int i = WIDTHS; i-- > 0;) {
@@ -152,7 +155,7 @@ void write_freezethaw(const char *folder, const struct write_frame *f,
   output_open_in(&positions, folder, "spheres_positions.txt");
   output_open_in(&params, folder, "Params");
   write_numbers(positions.stream, s, &d);
-  write_params(params.stream, s, &d);
+  write_params(params.stream, f, &d);
   output_commit(&positions);
   output_commit(&params);
 }

@@ -11,7 +11,6 @@
 #include "geometry/neighbors.h"
 #include "measure.h"
 #include "program/options.h"
-#include "program/version.h"
 #include "writers.h"
 
 /* Points that OpenCASCADE takes as one (Precision::Confusion). */
@@ -189,8 +188,9 @@ void write_geo(FILE *out, const struct write_frame *f,
   shape_domain(s, box);
   check(s);
   shape_measure(s);
+  write_origin(out, &origin_slashes, f);
   fprintf(out,
-          "// analyze export " DEM_VERSION "\n// %s\n"
+          "// %s\n"
           "// gmsh -3 makes a mesh of the pore\n"
           "SetFactory(\"OpenCASCADE\");\n"
           "h = ",

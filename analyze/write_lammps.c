@@ -3,7 +3,6 @@
    style sphere, which read_data takes. */
 #include "files/lammps_data.h"
 #include "files/numbers.h"
-#include "program/version.h"
 #include "writers.h"
 
 void write_lammps(FILE *out, const struct write_frame *f,
@@ -39,6 +38,9 @@ void write_lammps_data(FILE *out, const struct write_frame *f,
                        const struct write_options *o) {
   (void)o;
   const char *note = shape_note(f->shape);
-  lammps_data_write(out, "analyze export " DEM_VERSION, note ? note : "",
-                    f->bed, f->id_offset, f->shape->lattice);
+  char by[80];
+  origin_name(by, sizeof by);
+  lammps_data_title(out, by, note ? note : "", f->bed->t);
+  write_origin(out, &origin_short, f);
+  lammps_data_write(out, f->bed, f->id_offset, f->shape->lattice);
 }

@@ -12,17 +12,17 @@
 #include "measure.h"
 #include "program/files.h"
 #include "program/options.h"
-#include "program/version.h"
 #include "writers.h"
 
 static void open_dictionary(struct output_file *f, const char *folder,
-                            const char *name, const char *note) {
+                            const char *name, const struct write_frame *of) {
   output_open_in(f, folder, name);
+  write_origin(f->stream, &origin_slashes, of);
   fprintf(f->stream,
-          "// analyze export " DEM_VERSION "\n// %s\n"
+          "// %s\n"
           "FoamFile\n{\n    version 2.0;\n    format  ascii;\n"
           "    class   dictionary;\n    object  %s;\n}\n\n",
-          note, name);
+          of->shape->statement, name);
 }
 
 static void put_point(FILE *out, double x, double y, double z) {
@@ -170,11 +170,11 @@ void write_openfoam(const char *folder, const struct write_frame *f,
   char *constant = output_folder_in(folder, "constant");
   char *surfaces = output_folder_in(constant, "triSurface");
   output_open_in(&surface, surfaces, "spheres.stl");
-  open_dictionary(&block, system, "blockMeshDict", s->statement);
-  open_dictionary(&snappy, system, "snappyHexMeshDict", s->statement);
-  open_dictionary(&control, system, "controlDict", s->statement);
-  open_dictionary(&schemes, system, "fvSchemes", s->statement);
-  open_dictionary(&solution, system, "fvSolution", s->statement);
+  open_dictionary(&block, system, "blockMeshDict", f);
+  open_dictionary(&snappy, system, "snappyHexMeshDict", f);
+  open_dictionary(&control, system, "controlDict", f);
+  open_dictionary(&schemes, system, "fvSchemes", f);
+  open_dictionary(&solution, system, "fvSolution", f);
   /* the mesh has the volume of its surface, which should be the spheres' */
   struct write_options bodies = *o;
   bodies.equal_volume = true;

@@ -13,7 +13,6 @@
 #include "geometry/vec3.h"
 #include "geometry/surface.h"
 #include "measure.h"
-#include "program/version.h"
 #include "writers.h"
 
 /* Corners and faces, counter-clockwise from outside. */
@@ -112,13 +111,15 @@ static double facets_volume(size_t count, const double (*facet)[9]) {
   return six / 6;
 }
 
-static void put_header(FILE *out, const char *name, const char *text,
-                       size_t facets) {
+/* 80 bytes: what wrote it, of the bed with which checksum, and what fits. */
+static void put_header(FILE *out, const char *name, const struct shape *s,
+                       const char *text, size_t facets) {
   output_need_room(out, name, 84 + 50 * (double)facets);
-  char header[81];
-  memset(header, ' ', sizeof header);
-  const size_t length = strlen(text);
-  memcpy(header, text, GSL_MIN(length, 80));
+  char by[80], header[240];
+  const char *sum = bed_reader_sum(s->frames->reader);
+  origin_name(by, sizeof by);
+  snprintf(header, sizeof header, "%s%s%s: %-80s", by, sum ? " of " : "",
+           sum ? sum : "", text);
   fwrite(header, 1, 80, out);
   const uint32_t count = (uint32_t)facets;
   write_little_endian(out, &count, sizeof count, 1);
@@ -289,12 +290,11 @@ static void write_bodies(FILE *out, const char *name, const struct shape *s,
                             shortest_edge(count, (const double(*)[9])facet));
   char text[120];
   if (note)
-    snprintf(text, sizeof text, "analyze export %s: %s", DEM_VERSION, note);
+    snprintf(text, sizeof text, "%s", note);
   else
-    snprintf(text, sizeof text,
-             "analyze export %s: %zu facets per sphere, volume %.6f of a ball",
-             DEM_VERSION, count, share);
-  put_header(out, name, text,
+    snprintf(text, sizeof text, "%zu facets each, %.6f of a ball", count,
+             share);
+  put_header(out, name, s, text,
              count * b->n + prism_facets(sides) * s->solid.bridges +
                  PLATE_FACETS * walls);
   for (size_t i = 0; i < b->n && !ferror(out); i++) {
@@ -370,10 +370,9 @@ static void write_merged(FILE *out, const char *name, struct shape *s,
   struct solid_volume exact;
   frame_check(s->frames, s->source, solid_volume(&s->solid, region, &exact));
   char text[120];
-  snprintf(text, sizeof text,
-           "analyze export %s: union of %zu spheres, %zu bridges, volume %.9g",
-           DEM_VERSION, s->bed.n, s->solid.bridges, exact.total);
-  put_header(out, name, text, count);
+  snprintf(text, sizeof text, "%zu spheres, %zu bridges, volume %.9g", s->bed.n,
+           s->solid.bridges, exact.total);
+  put_header(out, name, s, text, count);
   struct merged merged = {.out = out};
   for (int k = 0; k < 3; k++)
     merged.origin[k] = region[2 * k];

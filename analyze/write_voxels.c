@@ -13,7 +13,6 @@
 #include "measure.h"
 #include "program/files.h"
 #include "program/progress.h"
-#include "program/version.h"
 #include "writers.h"
 
 /* Numbers held at a time: 16 MB. */
@@ -140,6 +139,15 @@ void write_raw(FILE *out, const struct write_frame *f,
   write_cells(out, f, o);
 }
 
+/* MetaIO 9.1 of VTK ends the program for a comment of 255 characters or more.
+   Keys of our own it passes over, as ITK and Fiji do. */
+static void put_comment(FILE *out, const struct write_frame *f) {
+  static const struct origin_style comment = {"", " = ", "\n", 254};
+  static const struct origin_style key = {"", " = ", "\n", 400};
+  origin_put(out, &comment, "Comment", f->shape->statement);
+  write_origin(out, &key, f);
+}
+
 /* MetaImage: a header of a few lines, and the numbers in a file beside it. The
    place of an image is that of its first midpoint. */
 void write_mhd(const char *path, const struct write_frame *f,
@@ -157,13 +165,11 @@ void write_mhd(const char *path, const struct write_frame *f,
   output_open(&header, path);
   write_cells(numbers.stream, f, o);
   shape_measure(f->shape);
-  fprintf(header.stream,
-          "ObjectType = Image\nNDims = 3\n"
-          "Comment = analyze export " DEM_VERSION ": %s\n"
-          "BinaryData = True\nBinaryDataByteOrderMSB = False\n"
-          "CompressedData = False\n"
-          "TransformMatrix = 1 0 0 0 1 0 0 0 1\n",
-          f->shape->statement);
+  fprintf(header.stream, "ObjectType = Image\nNDims = 3\n");
+  put_comment(header.stream, f);
+  fprintf(header.stream, "BinaryData = True\nBinaryDataByteOrderMSB = False\n"
+                         "CompressedData = False\n"
+                         "TransformMatrix = 1 0 0 0 1 0 0 0 1\n");
   const char *const words[] = {"Offset", "ElementSpacing"};
   for (int word = 0; word < 2; word++) {
     fprintf(header.stream, "%s =", words[word]);
@@ -270,8 +276,7 @@ void write_vti(FILE *out, const struct write_frame *f,
            (box[1] - box[0]) / (double)o->cells[0],
            (box[3] - box[2]) / (double)o->cells[1],
            (box[5] - box[4]) / (double)o->cells[2]);
-  write_vtk_start(out, "ImageData", attributes, shape_note(f->shape),
-                  f->bed->t);
+  write_vtk_start(out, "ImageData", attributes, f);
   fprintf(out, "<Piece %s>\n<CellData Scalars=\"%s\">\n", extent, array.name);
   write_vtk_element(out, &array, &offset);
   fprintf(out, "</CellData>\n</Piece>\n</ImageData>\n"

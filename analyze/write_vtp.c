@@ -163,7 +163,7 @@ void write_vtp(FILE *out, const struct write_frame *f,
       [GAP] = {"gap", "Float64", 1, 8, n + l.count, l.gap}};
   const int last = o->network ? ARRAYS : LINES;
   uint64_t offset = 0;
-  write_vtk_start(out, "PolyData", "", shape_note(f->shape), b->t);
+  write_vtk_start(out, "PolyData", "", f);
   fprintf(out,
           "<Piece NumberOfPoints=\"%zu\" NumberOfVerts=\"%zu\" "
           "NumberOfLines=\"%zu\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n"

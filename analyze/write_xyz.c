@@ -24,8 +24,10 @@ void write_xyz(FILE *out, const struct write_frame *f,
         "angular_velocity:R:3 Time=",
         out);
   numbers_write(out, ' ', 1, &b->t);
-  fprintf(out, "%s%s%s\n", note ? " Note=\"" : "", note ? note : "",
-          note ? "\"" : "");
+  if (note)
+    origin_put(out, &origin_attribute, "Note", note);
+  write_origin(out, &origin_attribute, f);
+  fputc('\n', out);
   for (size_t i = 0; i < b->n; i++) {
     const double *x = b->x + 3 * i, *v = b->v + 3 * i, *w = b->w + 3 * i;
     const double place[7] = {x[0], x[1], x[2], b->r[i], v[0], v[1], v[2]};

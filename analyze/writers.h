@@ -8,6 +8,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
+#include "program/origin.h"
 #include "shape.h"
 
 struct write_options {
@@ -40,6 +41,10 @@ typedef void write_files_function(const char *path, const struct write_frame *f,
 
 write_files_function write_freezethaw, write_mhd, write_openfoam;
 
+/* What made the file (program/origin.h), and which bed it is of. */
+void write_origin(FILE *out, const struct origin_style *s,
+                  const struct write_frame *f);
+
 /* count numbers of size bytes each, little-endian. */
 void write_little_endian(FILE *out, const void *data, size_t size,
                          size_t count);
@@ -57,10 +62,10 @@ struct vtk_array {
   const void *data;
 };
 
-/* The start of a VTK XML file: the opening tag of its kind of data set, with
-   attributes, a note unless that is NULL, and the time as field data. */
+/* The start of a VTK XML file: what made it, the opening tag of its kind of
+   data set, with attributes, the shape's note, and the time as field data. */
 void write_vtk_start(FILE *out, const char *kind, const char *attributes,
-                     const char *note, double t);
+                     const struct write_frame *f);
 
 /* An array's element; its data come at *offset, which moves on. */
 void write_vtk_element(FILE *out, const struct vtk_array *a, uint64_t *offset);

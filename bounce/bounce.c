@@ -15,9 +15,9 @@
 #include "model/scene.h"
 #include "program/files.h"
 #include "program/integration.h"
+#include "program/origin.h"
 #include "program/run_watch.h"
 #include "program/shared_options.h"
-#include "program/version.h"
 
 struct bounce {
   struct drop drop;
@@ -199,7 +199,7 @@ static int print_rebound(struct bounce *b) {
 
 static void print_header(const struct option_spec *options) {
   char text[256];
-  printf("# program=bounce\n# version=%s\n", DEM_VERSION);
+  origin_write(stdout, &origin_comment, command_line(), NULL);
   for (const struct option_spec *o = options; o->name; o++)
     if (o->parameter) {
       option_text(o, text, sizeof text);
@@ -263,6 +263,7 @@ int main(int argc, char **argv) {
   run_watch_end(b.watch, code == EXIT_INTEGRATION);
   finish_output();
   if (stats_file) {
+    origin_write(stats.stream, &origin_statistic, command_line(), NULL);
     run_watch_solver_stats(b.watch, stats.stream, 2, b.drop.evaluations,
                            GSL_MIN(integrate_time(b.it), b.time));
     run_watch_stats(b.watch, stats.stream, code);

@@ -8,8 +8,8 @@
 #include <gsl/gsl_errno.h>
 #include "measure.h"
 #include "program/integration.h"
+#include "program/origin.h"
 #include "program/shared_options.h"
-#include "program/version.h"
 
 /* clang-format off */
 static const struct precision_scene *const scenes[] = {
@@ -62,8 +62,8 @@ static void print_header(const struct option_spec *options,
                          const struct precision_scene *s,
                          const double reference_error[]) {
   char text[256];
-  printf("# program=precision\n# version=%s\n# scene=%s\n# about=%s\n",
-         DEM_VERSION, s->name, s->summary);
+  origin_write(stdout, &origin_comment, command_line(), NULL);
+  printf("# scene=%s\n# about=%s\n", s->name, s->summary);
   for (const struct option_spec *o = options; o->name; o++)
     if (o->parameter && !o->each) {
       option_text(o, text, sizeof text);

@@ -6,7 +6,7 @@
 #include "files/lammps_data.h"
 #include "files/numbers.h"
 #include "program/files.h"
-#include "program/version.h"
+#include "program/origin.h"
 
 /* LAMMPS counts spheres from 1. */
 static long id_offset(const struct bed *b) {
@@ -69,10 +69,11 @@ static void write_scene(FILE *out, const struct settings *set,
   const double step = fixed_step(s, b), skin = 4.5 * set->travel / l->kappa;
   const double g = sqrt(vec3_dot(s->gravity, s->gravity));
   const char *moving = b->fixed ? "moving" : "all";
+  origin_write(out, &origin_comment, set->command, NULL);
   fprintf(out,
-          "# Scene of start.tsv by settle " DEM_VERSION " for settle-lammps, a "
-          "LAMMPS with the\n# contact law of the paper: pair_style dem and fix "
-          "dem/walls.\nunits si\natom_style sphere\n# each rank computes the "
+          "# Scene of start.tsv for settle-lammps, a LAMMPS with the contact "
+          "law of the\n# paper: pair_style dem and fix dem/walls.\nunits "
+          "si\natom_style sphere\n# each rank computes the "
           "pairs of its own spheres\nnewton off\n# columns: a bed is "
           "settled by gravity, and slices of it would fill one by one\n"
           "processors * * 1\n# periodic (p), else a box that follows the "
@@ -131,6 +132,7 @@ static void write_run(FILE *out, const struct settings *set,
                       const struct bed *b) {
   const double step = fixed_step(&set->scene, b);
   const double steps = ceil((set->time - b->t) / step);
+  origin_write(out, &origin_comment, set->command, NULL);
   fprintf(
       out,
       "# The run with a fixed step by LAMMPS itself: settle-lammps --script "
@@ -159,8 +161,11 @@ void export_lammps(const char *folder, const struct settings *s,
   output_open_in(&file, folder, "bed.data");
   double box[6];
   box_of(b, s->scene.period, box);
-  lammps_data_write(file.stream, "settle " DEM_VERSION, "", b, id_offset(b),
-                    box);
+  char by[80];
+  origin_name(by, sizeof by);
+  lammps_data_title(file.stream, by, "", b->t);
+  origin_write(file.stream, &origin_short, s->command, NULL);
+  lammps_data_write(file.stream, b, id_offset(b), box);
   output_commit(&file);
   output_open_in(&file, folder, "in.scene");
   write_scene(file.stream, s, b);

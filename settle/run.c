@@ -12,6 +12,7 @@
 #include "program/files.h"
 #include "program/litter.h"
 #include "program/integration.h"
+#include "program/origin.h"
 #include "program/progress.h"
 #include "model/rest.h"
 #include "platform/system.h"
@@ -296,10 +297,8 @@ static void open_files(struct run *r, struct checkpoint *from) {
   } else {
     if (s->output)
       output_open(&r->output, s->output);
-    if (s->log) {
+    if (s->log)
       output_open(&r->log, s->log);
-      fputs("t\th\tsteps\tevaluations\tkinetic\tpotential\n", r->log.stream);
-    }
     if (s->stats)
       output_open(&r->stats, s->stats);
   }
@@ -373,6 +372,18 @@ static void note_origin(const struct run *r, struct bed_header *h) {
     die(EXIT_IO, "out of memory");
 }
 
+/* The log begins as the bed, with version, parameters, build and kernel. As the
+   bed, it has no command line: it is the same if a run goes on. */
+static void begin_log(struct run *r) {
+  FILE *log = r->log.stream;
+  for (size_t k = 0; k < r->header->count; k++) {
+    const struct bed_key *key = &r->header->at[k];
+    if (strcmp(key->name, "format") && strcmp(key->name, "t"))
+      origin_put(log, &origin_comment, key->name, key->value);
+  }
+  fputs("t\th\tsteps\tevaluations\tkinetic\tpotential\n", log);
+}
+
 int run(struct setup *setup, struct checkpoint *from) {
   const struct settings *s = setup->set;
   struct run r = {.set = s,
@@ -385,6 +396,8 @@ int run(struct setup *setup, struct checkpoint *from) {
   open_files(&r, from);
   start_motion(&r, from);
   note_origin(&r, setup->header);
+  if (s->log && !s->resume)
+    begin_log(&r);
   if (!setup->order) {
     const size_t bytes = setup->bed->n * sizeof *setup->order;
     setup->order = malloc(bytes);

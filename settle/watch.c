@@ -12,9 +12,8 @@
 #include <gsl/gsl_statistics.h>
 #include "model/bed_check.h"
 #include "model/softness.h"
-#include "platform/system.h"
+#include "program/origin.h"
 #include "program/run_watch.h"
-#include "program/version.h"
 #include "steppers/stiffness.h"
 
 /* Overlap that calls for a warning, in radii. */
@@ -419,15 +418,6 @@ static void write_levels(const struct multirate *m, FILE *out) {
   fprintf(out, "partners_joined\t%zu\n", r.again);
 }
 
-/* What made it: for those who want the same bits again. */
-static void write_origin(const struct watch *w, FILE *out) {
-  char build[SYSTEM_BUILD_SIZE];
-  system_build(build);
-  fprintf(out, "version\t%s\n", DEM_VERSION);
-  fprintf(out, "build\t%s\n", build);
-  fprintf(out, "command\t%s\n", w->set->command);
-}
-
 void watch_stats(const struct watch *w, FILE *out, double t_end,
                  int exit_status) {
   const struct dynamics *d = w->motion->dynamics;
@@ -437,7 +427,7 @@ void watch_stats(const struct watch *w, FILE *out, double t_end,
   fprintf(out, "spheres\t%zu\n", w->bed->n);
   fprintf(out, "threads\t%zu\n", w->set->threads);
   fprintf(out, "kernel\t%s\n", dynamics_kernel(d));
-  write_origin(w, out);
+  origin_write(out, &origin_statistic, w->set->command, NULL);
   fprintf(out, "pair_list_builds\t%zu\n", counts.builds);
   fprintf(out, "contacts_listed\t%zu\n", counts.contacts);
   fprintf(out, "contact_evaluations\t%.0f\n", counts.contacts_evaluated);

@@ -2,8 +2,8 @@
 /* stability: where methods fail. The first argument names a study. */
 #include <stdio.h>
 #include "verbs.h"
+#include "program/origin.h"
 #include "program/verbs.h"
-#include "program/version.h"
 
 static const struct verb table[] = {
     {"limits", "largest stable step of each method on two contacts",
@@ -24,8 +24,8 @@ void verb_begin(const struct program *p, int argc, char **argv) {
   const int operand = options_parse(p, argc, argv);
   if (operand < argc)
     die(EXIT_USAGE, "'%s': expected options only", argv[operand]);
-  printf("# program=stability\n# version=%s\n# verb=%s\n", DEM_VERSION,
-         argv[0]);
+  origin_write(stdout, &origin_comment, command_line(), NULL);
+  printf("# verb=%s\n", argv[0]);
   for (const struct option_spec *o = p->options; o->name; o++) {
     option_text(o, text, sizeof text);
     printf("# %s=%s\n", o->name, text);

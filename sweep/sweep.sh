@@ -55,6 +55,20 @@ clear_line() {
 version() {
   settle --version | sed 's/.* //'
 }
+# What made a table, in lines of comment at the head of a file that is still
+# empty, as settle and analyze have them. Where and how runs are run is no part.
+origin() { # WORD...: of the command line; more lines come on standard input
+  local word
+  [[ -f /dev/stdout && ! -s /dev/stdout ]] || return 0
+  printf '# %s\n' program=sweep "version=$(version)" || written
+  sed -n '/^# \(build\|kernel\)=/p' || written
+  printf '# command=sweep' || written
+  for word; do
+    [[ $word =~ ^[A-Za-z0-9_.,:/+=@%-]+$ ]] || word=${word@Q}
+    printf ' %s' "$word" || written
+  done
+  echo || written
+}
 print_help() {
   printf 'Usage: sweep %s\n%s\n\nOptions (defaults in brackets):\n' "$usage" \
     "$summary"
@@ -112,7 +126,7 @@ measure() { # BED DIRECTORY
     fi
     # the last row, as the bed's last state is the result; t once
     row=$(awk -F '\t' -v later="$k" '
-      NF == 0 { next }
+      NF == 0 || /^#/ { next }
       !head { head = $0; time = $1 == "t"; width = NF; next }
       { rows++; last = $0; t = $1 }
       t == before && time { same++ }
@@ -300,7 +314,8 @@ summarize() { # COLUMNS FILE NAME
       }
       return sprintf("%.17g", x)
     }
-    FNR == 1 {
+    !columns && /^#/ { next }
+    !columns {
       sub(/\r$/, "")
       for (k = 1; k <= NF; k++) at[$k] = k
       if (!("status" in at && "message" in at) || at["message"] < at["status"])
@@ -611,6 +626,10 @@ sweep_all() {
   local finished=0 failed=0 again=0 next=1 resumed=0 shows=0 begun=$SECONDS
   group='' job=''
   [[ ! -t 2 || -n $quiet ]] || shows=1
+  words=(--settle "$settle")
+  [[ -n $settle ]] || words=()
+  for m in "${measures[@]}"; do words+=(--measure "$m"); done
+  origin "${words[@]}" "$file" <"$T/bed"
   printf '%s\n' "$header"$'\tmessage' || written
   local aside=0
   recall "$work"
@@ -721,6 +740,7 @@ elif [[ -n $summarizes ]]; then
   [[ $file == - || -r $file && ! -d $file ]] ||
     die 1 "$file: no such table, or it cannot be read"
   [[ $file == - ]] && name='standard input' || name=$file
+  origin --summary "$groups" "$file" </dev/null
   summarize "$groups" "$file" "$name"
   exit
 else

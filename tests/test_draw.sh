@@ -4,6 +4,13 @@
 # and what is said when something is missing. Run from the root of the
 # repository; B is the directory of the programs.
 . tests/harness.sh
+
+image() { # FILE: a PNG without the text that says what made it
+  local length
+  length=$((16#$(od -An -tx1 -j 33 -N 4 "$1" | tr -d ' \n')))
+  head -c 33 "$1"
+  tail -c +$((34 + 12 + length)) "$1"
+}
 export TMPDIR=$T/scratch
 unset DEM_PLOTS
 mkdir "$TMPDIR"
@@ -96,7 +103,8 @@ pixels "$T/one.png" | awk '
     exit bad || !n}'
 check 'one ball: its area and place' test $? = 0
 "$B/analyze" draw "$T/one" >"$T/piped.png"
-check 'a picture to standard output' cmp -s "$T/one.png" "$T/piped.png"
+check 'a picture to standard output' cmp -s <(image "$T/one.png") \
+  <(image "$T/piped.png")
 
 # Seen from turn 30 and tilt 72: a ball before the large one, one that looks out
 # from behind it, and two that do not; from the other side the last is hidden.
@@ -133,12 +141,15 @@ awk -F '\t' '/^# t=/ {n = 0} /^[0-9]/ {row[++n] = $0}
 grep -v '^#' "$T/rows" | tr '\t' , >"$T/table.csv"
 "$B/analyze" draw --output "$T/rows.png" "$T/rows"
 "$B/analyze" draw <"$T/table.csv" >"$T/table.png"
-check 'a table, a pipe: the same bytes' cmp -s "$T/rows.png" "$T/table.png"
+check 'a table, a pipe: the same bytes' cmp -s <(image "$T/rows.png") \
+  <(image "$T/table.png")
 "$B/analyze" draw --frame 2 --output "$T/frame.png" "$T/bed"
-check 'the last frame is the default' cmp -s "$T/bed.png" "$T/frame.png"
+check 'the last frame is the default' cmp -s <(image "$T/bed.png") \
+  <(image "$T/frame.png")
 "$B/analyze" draw --frame 0 --output "$T/frame.png" "$T/bed"
 check 'the first one is another' test -s "$T/frame.png"
-check 'the first one is another' eval '! cmp -s "$T/bed.png" "$T/frame.png"'
+check 'the first one is another' eval '! cmp -s <(image "$T/bed.png") \
+  <(image "$T/frame.png")'
 "$B/analyze" draw --view 200,40 --color contacts --output "$T/x.svg" "$T/bed"
 check 'an SVG' test "$(grep -c '<svg' "$T/x.svg")" = 1
 check 'with its label' grep -q 'touching spheres' "$T/x.svg"
@@ -155,7 +166,8 @@ for home in home other; do
   HOME=$T/$home timeout 60 "$B/analyze" movie $own >"$T/$home.gif" 2>"$T/err"
   check "a movie with the settings of $home" test -s "$T/$home.gif"
 done
-check 'own settings leave the picture alone' cmp -s "$T/home.png" "$T/other.png"
+check 'own settings leave the picture alone' cmp -s <(image "$T/home.png") \
+  <(image "$T/other.png")
 check 'and the movie' cmp -s "$T/home.gif" "$T/other.gif"
 # the same bed in millimetres and in a billionth of that: the same picture, but
 # for its numbers

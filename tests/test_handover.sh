@@ -379,9 +379,9 @@ refuse 'a bed of two radii' 3 'several radii' --format bed --gap 0.1 "$T/two.csv
 for format in xyz lammps-data vtp vti stl; do
   check "$format has the change in its header" grep -aq \
     'gap: radii times 0.[0-9]*, change of\|spheres, solid fraction' \
-    <(hand --format $format --gap 0.004 "$T/bed" | head -n 4)
+    <(hand --format $format --gap 0.004 "$T/bed" | head -n 6)
   check "$format: and not without one" [ "$(hand --format $format "$T/bed" |
-    head -n 4 | grep -ac 'change of\|solid fraction')" = 0 ]
+    head -n 6 | grep -ac 'change of\|solid fraction')" = 0 ]
 done
 hand --format xyz --gap 0.004 "$T/bed" >"$T/apart.xyz"
 check 'xyz with a note is read again' [ "$("$B/analyze" "$T/apart.xyz" |

@@ -63,6 +63,7 @@ struct bed_reader {
   double (*rows)[COLUMNS]; /* of the frame being read */
   size_t rows_count, rows_size;
   size_t frames;
+  char sum[9]; /* the frame's checksum, as the file has it; or empty */
   char error[512], note[256];
 };
 

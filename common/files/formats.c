@@ -147,6 +147,10 @@ bool bed_reader_is_cut(const struct bed_reader *r) {
   return r->cut || r->cut_noted;
 }
 
+const char *bed_reader_sum(const struct bed_reader *r) {
+  return *r->sum ? r->sum : NULL;
+}
+
 size_t bed_reader_part(const struct bed_reader *r) {
   return r->part;
 }

@@ -44,6 +44,10 @@ const char *bed_reader_note(const struct bed_reader *r);
 /* Is it a bed as bed_io.h has them, with parameters and walls? */
 bool bed_reader_is_bed(const struct bed_reader *r);
 
+/* The checksum of the frame just read, which fits: 8 digits; NULL in a file
+   that has none. */
+const char *bed_reader_sum(const struct bed_reader *r);
+
 /* Did the file end too early, which allow_partial forgives? */
 bool bed_reader_is_cut(const struct bed_reader *r);
 

@@ -10,14 +10,16 @@ static double density(double m, double r) {
   return r > 0 ? m / (4 * M_PI / 3 * r * r * r) : m;
 }
 
-void lammps_data_write(FILE *out, const char *by, const char *note,
-                       const struct bed *b, long id_offset,
+void lammps_data_title(FILE *out, const char *by, const char *note, double t) {
+  fprintf(out, "LAMMPS data file by %s, t = ", by);
+  numbers_write(out, ' ', 1, &t);
+  fprintf(out, " s%s%s\n", *note ? "; " : "", note);
+}
+
+void lammps_data_write(FILE *out, const struct bed *b, long id_offset,
                        const double box[6]) {
   static const char axes[] = "xyz";
-  fprintf(out, "LAMMPS data file by %s, t = ", by);
-  numbers_write(out, ' ', 1, &b->t);
-  fprintf(out, " s%s%s\n\n%zu atoms\n%d atom types\n\n", *note ? "; " : "",
-          note, b->n, b->fixed ? 2 : 1);
+  fprintf(out, "\n%zu atoms\n%d atom types\n\n", b->n, b->fixed ? 2 : 1);
   for (int k = 0; k < 3; k++) {
     numbers_write(out, ' ', 2, box + 2 * k);
     fprintf(out, " %clo %chi\n", axes[k], axes[k]);

@@ -117,6 +117,7 @@ static int check_sum(struct bed_reader *r, struct text value) {
     return reader_fail(r, "checksum=%.*s: %s has %s, it was changed; " AS_IT_IS,
                        value.length > 8 ? 8 : (int)value.length, value.at, what,
                        found);
+  strcpy(r->sum, found);
   s->sums = false;
   s->sealed = true;
   return GSL_SUCCESS;
@@ -176,6 +177,8 @@ static int read_names(struct bed_reader *r) {
 static int finish_frame(struct bed_reader *r, struct bed *b) {
   struct bed_state *s = r->state;
   s->stale[0] = s->stale[1] = true;
+  if (!s->sealed)
+    *r->sum = 0;
   s->named = s->timed = s->sums = s->sealed = false;
   return reader_frame(r, b, s->t);
 }

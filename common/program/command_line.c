@@ -3,6 +3,7 @@
 
 #include <assert.h>
 #include <getopt.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -36,6 +37,49 @@ static _Noreturn void refuse(const struct option table[], char reason,
   die(EXIT_USAGE, "--%s: no such option", word);
 }
 
+static char *command; /* of the last options_parse */
+
+const char *command_line(void) {
+  return command ? command : program_name();
+}
+
+/* Words of a command line, less those that change no byte of what is written;
+   getopt puts argv in order, these stay as they were given. */
+struct words {
+  int count;
+  char **at;
+};
+
+static struct words keep_words(int argc, char **argv) {
+  struct words w = {argc, malloc(((size_t)argc + 1) * sizeof *w.at)};
+  if (!w.at)
+    die(EXIT_IO, "out of memory");
+  memcpy(w.at, argv, (size_t)argc * sizeof *w.at);
+  return w;
+}
+
+static void leave_out(struct words *w, const char *word) {
+  int kept = 0;
+  for (int k = 0; k < w->count; k++)
+    if (w->at[k] != word)
+      w->at[kept++] = w->at[k];
+  w->count = kept;
+}
+
+/* The program by its name instead of its path, then the verb. */
+static void keep_command(struct words *w) {
+  const int path = program_verb() ? 0 : 1;
+  char *const rest = command_words(w->count - path, w->at + path);
+  const size_t size = strlen(program_name()) + strlen(rest) + 2;
+  free(command);
+  command = malloc(size);
+  if (!command)
+    die(EXIT_IO, "out of memory");
+  snprintf(command, size, "%s%s%s", program_name(), *rest ? " " : "", rest);
+  free(rest);
+  free(w->at);
+}
+
 int options_parse(const struct program *p, int argc, char **argv) {
   struct option table[MOST_OPTIONS + 3] = {{0}};
   size_t count = 0;
@@ -55,6 +99,7 @@ int options_parse(const struct program *p, int argc, char **argv) {
     help_print_man(p);
   if (argc > 1 && !strcmp(argv[argc - 1], "--complete"))
     help_print_completion(p);
+  struct words words = keep_words(argc, argv);
   opterr = 0;
   int found;
   while ((found = getopt_long(argc, argv, ":h", table, NULL)) != -1) {
@@ -69,26 +114,39 @@ int options_parse(const struct program *p, int argc, char **argv) {
     if (want)
       die(EXIT_USAGE, "--%s %s: expected %s", o->name, optarg, want);
     o->given = true;
+    if (o->silent) {
+      if (optarg && optarg == argv[optind - 1]) /* --name value */
+        leave_out(&words, argv[optind - 2]);
+      leave_out(&words, argv[optind - 1]);
+    }
   }
+  keep_command(&words);
   return optind;
 }
 
-/* As a shell reads it back: 'it'\\''s'. A line stays one. */
+/* As bash reads it back, in printable ASCII and without a quotation mark ("),
+   whatever the word has: a line stays one, and any format can carry it. */
 static char *quote(char *to, const char *word) {
   const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
                        "0123456789-_=./,:+%@";
-  if (*word && !word[strspn(word, plain)]) {
-    strcpy(to, word);
-    return to + strlen(word);
+  const char special[] = "\"'\\?"; /* ?> would end an XML instruction */
+  bool quoted = !*word, escaped = false;
+  for (const char *c = word; *c; c++) {
+    quoted = quoted || !strchr(plain, *c);
+    escaped = escaped || *c < ' ' || *c > '~' || strchr(special, *c);
   }
-  *to++ = '\'';
+  if (escaped)
+    *to++ = '$';
+  if (quoted)
+    *to++ = '\'';
   for (; *word; word++) {
-    const bool is_quote = *word == '\'';
-    if (is_quote)
-      to += strlen(strcpy(to, "'\\'"));
-    *to++ = *word == '\n' ? ' ' : *word;
+    if (*word < ' ' || *word > '~' || strchr(special, *word))
+      to += sprintf(to, "\\%03o", (unsigned)(unsigned char)*word);
+    else
+      *to++ = *word;
   }
-  *to++ = '\'';
+  if (quoted)
+    *to++ = '\'';
   *to = 0;
   return to;
 }
@@ -96,7 +154,7 @@ static char *quote(char *to, const char *word) {
 char *command_words(int argc, char *const argv[]) {
   size_t length = 1;
   for (int k = 0; k < argc; k++)
-    length += 4 * strlen(argv[k]) + 3;
+    length += 4 * strlen(argv[k]) + 4;
   char *const words = malloc(length), *at = words;
   if (!words)
     die(EXIT_IO, "out of memory");

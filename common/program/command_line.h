@@ -14,8 +14,14 @@
    mistake exits with EXIT_USAGE. Returns the index of the first operand. */
 int options_parse(const struct program *p, int argc, char **argv);
 
+/* The command line that options_parse read, as a shell reads it back, for files
+   that say what made them: the program's name without its path, the verb, and
+   all words as they were given but options that are silent (options.h). */
+const char *command_line(void);
+
 /* The words of a command line in one line of memory of its own, in quotes where
-   the shell needs those. Exits without memory. */
+   the shell needs those, and in printable ASCII without a quotation mark (").
+   Exits without memory. */
 char *command_words(int argc, char *const argv[]);
 
 #endif

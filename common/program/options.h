@@ -37,6 +37,7 @@ struct option_spec {
   void (*unset)(char *text, size_t size);
   bool parameter; /* of the scene: stands in a bed's header */
   bool optional;  /* has no key in a header while it is 0 or without text */
+  bool silent;    /* changes no byte of what is written: not in command_line */
   bool given;     /* set from the command line */
   /* Of a default that belongs to the paper's sphere: options_scale. */
   struct dimension dimension;

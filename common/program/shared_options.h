@@ -53,7 +53,7 @@
    .help = "file for the solver's statistics"}
 #define QUIET_OPTION(value_)                                                   \
   {.name = "quiet", .type = OPTION_FLAG, .value = &(value_),                   \
-   .help = "no progress"}
+   .help = "no progress", .silent = true}
 
 /* The contact law, but for friction, into a struct contact_law c. */
 #define LAW_OPTIONS(c)                                                         \
