@@ -299,7 +299,8 @@ judge() { # FILE LINE-NUMBER LINE NEW SECONDS PASSED
   local file=$1 object=build/obj/${1%.?} sum=0 first=libdem.a test time seen plan=()
   verdict=survived by=
   while IFS=$'\t' read -r _ time test; do
-    if awk -v s="$sum" -v most="$5" 'BEGIN {exit !(s > most)}'; then
+    if awk -v s="$sum" -v t="$time" -v most="$5" \
+      'BEGIN {exit !(s > most || t > 4 * most)}'; then
       by+=' ...'
       break
     fi
@@ -321,7 +322,7 @@ judge() { # FILE LINE-NUMBER LINE NEW SECONDS PASSED
   elif [[ $file == *.c ]] && same "$object"*.o; then
     verdict=void by='the same machine code'
   elif [[ ${#plan[@]} -eq 0 ]]; then
-    by='no test runs it'
+    [[ $by ]] || by='no test runs it'
   else
     try "${plan[@]}"
   fi
