@@ -229,6 +229,15 @@ within 'gr of a tube: all pairs' "$(awk 'NR > 1 { n += $4 } END { print n }' \
   "$T/tsv")" 435 435
 within 'gr of a tube: all expected' "$(awk 'NR > 1 { n += $5 } END { print n }' \
   "$T/tsv")" 434.999 435.001
+# pairs within a thousandth of a diameter: by that share of the cylinder's volume, of
+# which three of the centres, on its surface, have half
+"$B/analyze" gr --rmax 1e-3 --bins 1 "$T/rest.bed" | cat > "$T/tsv"
+within 'gr of a tube: what the centres span' "$(awk -v pi=3.14159265358979 '
+  FNR == NR { if (FNR == 2) shell = $5; next }
+  /^[0-9]/ { a = ($2 - 0.3)^2 + ($3 - 0.2)^2; if (a > most) most = a
+    if (!n++ || $4 < low) low = $4; if ($4 > high) high = $4 }
+  END { volume = 4 / 3 * pi * 0.0002^3 * 14.5 * (30 - 1.5) / shell
+    print volume / (pi * most * (high - low)) - 1 }' "$T/tsv" "$T/rest.bed")" -1e-3 1e-3
 "$B/analyze" order --margin 0 "$T/rest.bed" | cat > "$T/tsv"
 within 'order of a tube: none is left out' "$(row spheres "$T/tsv")" 30 30
 "$B/analyze" order --margin 0.6 "$T/rest.bed" | cat > "$T/tsv"
