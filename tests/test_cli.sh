@@ -301,7 +301,8 @@ refuse 'box of five' 2 '--box 0,1,0,1,0: expected 6' \
 refuse 'box not a number' 2 '--box 0,1,0,1,0,x: expected' \
   analyze --box 0,1,0,1,0,x "$T/good"
 refuse 'sampled' 2 '--sampled -1: expected' analyze --sampled -1 "$T/good"
-refuse 'two files' 2 'expected one' analyze radius "$T/good" "$T/good"
+refuse 'two files' 2 "'$T/a' after '$T/good': expected one file" \
+  analyze radius "$T/good" "$T/a"
 refuse 'no height' 2 '--height 0: expected' bounce --height 0
 refuse 'no samples' 2 '--samples 0: expected' bounce --samples 0
 for p in settle bounce; do

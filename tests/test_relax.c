@@ -124,6 +124,18 @@ static void test_walls(void) {
   bed_free(&b);
 }
 
+/* As many pairs as walls: a sphere half in the floor, and one half in it. */
+static void test_pair_on_wall(void) {
+  struct scene s = scene_default();
+  struct bed b = new_bed(2);
+  CHECK(scene_add_box(&s, 1, 1) == GSL_SUCCESS);
+  memcpy(b.x, (double[]){0.5, 0.5, 0.05, 0.5, 0.5, 0.2}, 6 * sizeof *b.x);
+  const struct relax_report r = push(&s, &b);
+  CHECK(r.walls == 1 && r.pairs == 1 && r.moved == 2 && r.passes > 1);
+  scene_free(&s);
+  bed_free(&b);
+}
+
 /* Spheres at random places, some of them in one place and some obstacles. */
 static struct bed crowd(size_t n, const double side[3], unsigned long seed) {
   struct bed b = new_bed(n);
@@ -271,6 +283,7 @@ int main(void) {
   gsl_set_error_handler_off();
   test_pairs();
   test_walls();
+  test_pair_on_wall();
   test_crowds();
   test_stays();
   test_let_go();
