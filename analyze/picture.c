@@ -66,9 +66,11 @@ void picture_begin(struct picture *p, const char *output, bool quiet) {
     output_open(&p->file, output);
   const char *place = getenv("TMPDIR");
   p->scratch = joined(place && *place ? place : "/tmp", "/dem-XXXXXX", "");
+  litter_hold();
+  litter_add(p->scratch); /* has its name when it is there */
   if (!mkdtemp(p->scratch))
     die(EXIT_IO, "%s: %s", p->scratch, strerror(errno));
-  litter_add(p->scratch);
+  litter_release();
 }
 
 const char *picture_path(struct picture *p, const char *name) {

@@ -5,6 +5,7 @@
 [[ ! -w /dev/shm ]] || export TMPDIR="${TMPDIR:-/dev/shm}" # where fsync is fast
 . tests/harness.sh
 . tests/checkpoints.sh # resume may have arguments, or none
+. tests/faults.sh
 
 D=$T/d
 mkdir "$D"
@@ -88,6 +89,34 @@ mv "$D/check.old" "$D/check"
 resume
 end
 check 'a deep overlap: not said again' test "$(grep -c 'overlaps by' "$T/err")" = 0
+
+# --- killed behind each call of the system -------------------------------------
+# also where there are no hard links, so that one checkpoint is all there is
+if make_faults; then
+  few=(--count 5 --base '0.4,0.4' --time 0.02 --frames 2)
+  unbroken "${few[@]}"
+  for links in '' FAULT_NO_LINKS=1; do
+    kills=0 others=0
+    for ((k = 1;; k++)); do
+      rm -f "${D:?}"/* "$T/hit"
+      env $links FAULT=killed:$k FAULT_DONE="$T/hit" LD_PRELOAD="$T/faults.so" \
+        "$B/settle" --quiet --output "$D/out" --log "$D/log" \
+        --checkpoint "$D/check" --every 0 "${few[@]}" 2>"$T/err" &
+      pid=$!
+      end
+      [[ -e $T/hit ]] || break
+      kills=$((kills + 1))
+      if [[ -e $D/check ]]; then
+        "$B/settle" --quiet --resume "$D/check" 2>"$T/err" &&
+          cmp -s "$T/whole/out" "$D/out" && cmp -s "$T/whole/log" "$D/log"
+      else
+        [[ ! -e $D/check.old ]]
+      fi || others=$((others + 1))
+    done
+    check "$links: $others of $kills kills lost something" test $others = 0 -a \
+      $kills -gt 20
+  done
+fi
 
 # --- signals ------------------------------------------------------------------
 unbroken "${small[@]}" --time 1

@@ -3,6 +3,7 @@
 # Programs that are ended leave nothing half-written and nothing running, and end
 # as signals have it.
 . tests/harness.sh
+. tests/faults.sh
 
 export TMPDIR=$T/scratch
 D=$T/d
@@ -85,6 +86,29 @@ end
 check "a second signal: the status is $status" test $status = 130 -o \
   $status = 143
 check 'a second signal: nothing is left' test -z "$(ls "$D")"
+# At the moment at which a file or folder is made
+made() { # LEAST COMMAND...: each of its files in turn
+  local least=$1 k
+  shift
+  for ((k = 1;; k++)); do
+    rm -f "$T/hit"
+    timeout 60 env --default-signal FAULT=made:$k FAULT_DONE="$T/hit" \
+      LD_PRELOAD="$T/faults.so" "$@" >"$T/out" 2>"$T/err" &
+    pid=$!
+    end
+    [[ -e $T/hit ]] || break
+    check "file $k of $*: the status is $status" test $status = 131
+    check "file $k of $*: nothing is left" test -z "$(ls "$D")$(ls "$TMPDIR")"
+  done
+  check "$least files of $*" test $k -gt "$least"
+  rm -rf "${D:?}"/*
+}
+if make_faults; then
+  made 4 "$B/settle" --quiet --count 2 --time 0.01 --output "$D/out" \
+    --log "$D/log" --stats "$D/stats" --checkpoint "$D/check" --every 1000
+  made 5 "$B/analyze" export --format openfoam --output "$D/case" "$T/bed"
+  made 2 "$B/analyze" draw --output "$D/x.png" "$T/bed"
+fi
 # as nohup starts it
 env --default-signal --ignore-signal=HUP "$B/settle" --quiet --count 200 \
   --method merson --time 1000 --log "$D/log" >"$T/out" 2>"$T/err" &

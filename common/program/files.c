@@ -135,6 +135,20 @@ static bool lock(int fd) {
          (errno != EACCES && errno != EAGAIN); /* nobody can lock it */
 }
 
+/* A new file that is litter until it has another name; -1 with errno. What that
+   takes of memory is there before the file. */
+static int make_litter(const char *path) {
+  litter_hold();
+  litter_add(path);
+  int fd = open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (fd < 0 && errno == EEXIST && unlink(path) == 0) /* long dead */
+    fd = open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (fd < 0)
+    litter_forget(path);
+  litter_release();
+  return fd;
+}
+
 /* Opens a new file beside the target, with the mode and owner of the one that
    is to be replaced. False with errno. */
 static bool open_partial(struct output_file *f, const struct stat *old) {
@@ -142,12 +156,9 @@ static bool open_partial(struct output_file *f, const struct stat *old) {
   if (!f->renewed)
     snprintf(ending, sizeof ending, ".partial-%ld", (long)getpid());
   f->partial = joined(f->target, strlen(f->target), ending);
-  int fd = open(f->partial, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (fd < 0 && errno == EEXIST && unlink(f->partial) == 0) /* long dead */
-    fd = open(f->partial, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  const int fd = make_litter(f->partial);
   if (fd < 0)
     return false;
-  litter_add(f->partial);
   if (old) {
     if (fchown(fd, old->st_uid, old->st_gid) != 0)
       errno = 0; /* only root may; then it becomes ours */
@@ -158,6 +169,8 @@ static bool open_partial(struct output_file *f, const struct stat *old) {
   }
   lock(fd);
   f->stream = fdopen(fd, "w");
+  if (!f->stream)
+    close(fd);
   return f->stream != NULL;
 }
 
@@ -332,14 +345,22 @@ static bool open_left(struct output_file *f, const struct output_mark *m) {
   }
   f->partial = joined(m->partial, strlen(m->partial), "");
   f->stream = fdopen(fd, "w");
-  return f->stream != NULL;
+  if (!f->stream)
+    cannot_write(f->path);
+  return true;
 }
 
-/* A copy of the part that a process has committed, to go on in another file. */
-static bool open_committed(struct output_file *f, struct output_mark *m,
+/* A copy of the part that a process has committed, to go on in another file;
+   false if it is not there. */
+static bool open_committed(struct output_file *f, const struct output_mark *m,
                            const struct stat *st) {
   const int fd = open(f->target, O_RDONLY | O_CLOEXEC);
-  bool good = fd >= 0 && begins_as_marked(fd, m) && open_partial(f, st);
+  if (fd < 0 || !begins_as_marked(fd, m)) {
+    if (fd >= 0)
+      close(fd);
+    return false;
+  }
+  bool good = open_partial(f, st);
   char bytes[1 << 16];
   for (size_t at = 0; good && at < m->length;) {
     const size_t left = m->length - at;
@@ -348,9 +369,10 @@ static bool open_committed(struct output_file *f, struct output_mark *m,
     good = got > 0 && fwrite(bytes, 1, (size_t)got, f->stream) == (size_t)got;
     at += good ? (size_t)got : 0;
   }
-  if (fd >= 0)
-    close(fd);
-  return good;
+  if (!good)
+    cannot_write(f->path);
+  close(fd);
+  return true;
 }
 
 void output_open_at(struct output_file *f, const char *path,
@@ -361,8 +383,9 @@ void output_open_at(struct output_file *f, const char *path,
   memcpy(m->sum.table, checksum_begin().table, sizeof m->sum.table);
   if (f->target && open_left(f, m))
     return;
-  if (f->target && ((there && open_committed(f, m, &st)) ||
-                    (!m->length && open_partial(f, NULL)))) {
+  if (f->target && ((there && open_committed(f, m, &st)) || !m->length)) {
+    if (!f->stream && !open_partial(f, NULL))
+      cannot_write(path);
     free(m->partial); /* has another name from now on */
     m->partial = NULL;
     return;
@@ -385,13 +408,17 @@ bool output_renew(struct output_file *f) {
   f->stream = NULL;
   if (open_partial(f, NULL))
     return true;
+  const int error = errno;
+  unlink(f->partial); /* it is there, if there was no memory for more */
   litter_forget(f->partial);
   free(f->partial);
   f->partial = NULL;
+  errno = error;
   return false;
 }
 
-/* The file becomes the one before, if it is there. At no moment it is not. */
+/* The file is the one before as well, if it is there, until it is replaced: at
+   no moment it is not. Where there are no hard links, none is kept. */
 static bool keep_old(const struct output_file *f) {
   const size_t length = strlen(f->target);
   char *old = malloc(length + sizeof ".old");
@@ -399,11 +426,11 @@ static bool keep_old(const struct output_file *f) {
     return false;
   memcpy(old, f->target, length);
   strcpy(old + length, ".old");
-  const bool done = (unlink(old) == 0 || errno == ENOENT) &&
-                    (link(f->target, old) == 0 || errno == ENOENT ||
-                     rename(f->target, old) == 0 || errno == ENOENT);
+  const bool gone = unlink(old) == 0 || errno == ENOENT;
+  if (gone)
+    link(f->target, old);
   free(old);
-  return done;
+  return gone;
 }
 
 bool output_renewed(struct output_file *f, bool good) {
@@ -438,11 +465,19 @@ static char *path_in(const char *folder, const char *name) {
 
 void output_folder(const char *path) {
   struct stat st;
-  if (mkdir(path, 0777) == 0) /* what is in it will not be littered */
-    litter_add(joined(path, strlen(path), ""));
-  else if (errno != EEXIST)
+  char *kept = joined(path, strlen(path), "");
+  litter_hold();
+  litter_add(kept); /* what is in it will not be littered */
+  const bool made = mkdir(path, 0777) == 0;
+  if (!made)
+    litter_forget(kept);
+  litter_release();
+  if (made)
+    return;
+  free(kept);
+  if (errno != EEXIST)
     cannot_write(path);
-  else if (stat(path, &st) == 0 && !S_ISDIR(st.st_mode))
+  if (stat(path, &st) == 0 && !S_ISDIR(st.st_mode))
     die(EXIT_IO, "%s: is not a folder", path);
 }
 

@@ -22,6 +22,7 @@ static struct place *_Atomic places;
 static atomic_long helper; /* pid */
 static atomic_bool deferred;
 static atomic_int asked;
+static sigset_t held; /* what was blocked before */
 
 /* Calls only functions that a signal handler may call. */
 static void remove_all(void) {
@@ -90,6 +91,16 @@ void litter_watch(void) {
   catch_signal(SIGXFSZ, go_on);
 }
 
+void litter_hold(void) {
+  sigset_t all;
+  sigfillset(&all);
+  sigprocmask(SIG_BLOCK, &all, &held);
+}
+
+void litter_release(void) {
+  sigprocmask(SIG_SETMASK, &held, NULL);
+}
+
 void litter_add(const char *path) {
   for (struct place *p = places; p; p = p->next)
     if (!p->path) {
@@ -113,9 +124,7 @@ void litter_forget(const char *path) {
 /* No signal comes between the fork and the knowledge of it; the child goes by
    the default until it is another program. */
 pid_t litter_fork(void) {
-  sigset_t all, before;
-  sigfillset(&all);
-  sigprocmask(SIG_BLOCK, &all, &before);
+  litter_hold();
   const pid_t child = fork();
   if (child > 0)
     helper = child;
@@ -123,7 +132,7 @@ pid_t litter_fork(void) {
     for (size_t k = 0; k < sizeof ends / sizeof *ends; k++)
       if (caught[k])
         signal(ends[k], SIG_DFL);
-  sigprocmask(SIG_SETMASK, &before, NULL);
+  litter_release();
   return child;
 }
 

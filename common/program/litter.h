@@ -22,6 +22,11 @@
 /* Watches the exits of this process; further calls do nothing. */
 void litter_watch(void);
 
+/* No signal comes between the two: in there a file is made and added, and none is
+   left by a signal that comes as it is made. */
+void litter_hold(void);
+void litter_release(void);
+
 /* A file, or a directory that holds nothing but files added as well. The
    text stays the caller's and must live until it is forgotten. */
 void litter_add(const char *path);
