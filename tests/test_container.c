@@ -139,6 +139,18 @@ static void test_random(gsl_rng *rng) {
       sum += measured(&c, piece);
     }
     CHECK_CLOSE(sum, whole, 1e-13);
+    /* of grains of sand: all lengths by 2^-10 */
+    double tiny[6];
+    for (int k = 0; k < 6; k++) {
+      tiny[k] = box[k] / 1024;
+      c.box[k] /= 1024;
+    }
+    for (int k = 0; k < 3; k++) {
+      plane[k][3] /= 1024;
+      c.point[k] /= 1024;
+    }
+    c.radius /= 1024;
+    CHECK_REL(measured(&c, tiny) * gsl_pow_3(1024), whole, 1e-13);
   }
   CHECK(some > 20);
 }

@@ -262,4 +262,11 @@ for number in 0x10 nan inf 1e999 '1 2' 1,5 ''; do
     check "$option '$number': status $?" test $? = 2
   done
 done
+# --- a message has an end ----------------------------------------------------
+printf '# format=bed-1\n# t=x%0900d\nx\ty\tz\tr\n' 0 >"$T/long"
+"$B/analyze" "$T/long" >"$T/out" 2>"$T/err"
+check 'a long word: exit status' test $? = 3
+check 'a long word: what it is' grep -q "^analyze: $T/long:2: t=x000" "$T/err"
+check 'a long word: 511 characters' test "$(wc -c <"$T/err")" = \
+  $((511 + $(printf 'analyze: \n' | wc -c)))
 check_done

@@ -778,6 +778,9 @@ static void test_union_limits(void) {
   const double flat[6] = {-1, 1, 0, 0, -1, 1}, far[6] = {8, 9, 8, 9, 8, 9};
   CHECK(united(2, x, r, flat) == 0 && volume_sum(2, x, r, flat) == 0);
   CHECK(united(2, x, r, far) == 0 && volume_sum(2, x, r, far) == 0);
+  /* what is behind the last one is none of its business */
+  const double behind[7] = {0, 0, 0, 1, 0, 0, GSL_NAN};
+  CHECK(united(2, behind, r, everywhere) == united(2, x, r, everywhere));
 
   const double bad[] = {GSL_NAN, GSL_POSINF, GSL_NEGINF};
   for (int i = 0; i < 3; i++) {

@@ -454,6 +454,13 @@ static void test_refused(void) {
   CHECK(voxels_open(&v, &s, endless, cells) == GSL_EINVAL);
   CHECK(voxels_open(&v, &s, unit, no) == GSL_EINVAL);
   CHECK(voxels_open(&v, &wrong, unit, cells) == GSL_EINVAL);
+  for (int k = 0; k < 6; k++) { /* any number of any sphere */
+    double y[6] = {0.5, 0.5, 0.5, 0.7, 0.7, 0.7};
+    const struct solid nowhere = {
+        .n = 2, .x = y, .r = (const double[]){0.1, 0.1}};
+    y[k] = NAN;
+    CHECK(voxels_open(&v, &nowhere, unit, cells) == GSL_EINVAL);
+  }
   /* cells that double cannot tell apart */
   CHECK(voxels_open(&v, &s, far, fine) == GSL_EINVAL);
   CHECK(v == NULL);
