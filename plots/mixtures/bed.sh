@@ -20,7 +20,10 @@ if [[ $kind == two ]]; then
   options=(--sizes "mix:0.1*$value,0.025*$small" --shares volume --density 300
     --kappa 4800 --f0 2 --psi 20 --lmax 0.003 --tol 0.004)
 else
-  count=1000 base=1.6 time=5
+  # three diameters of the largest sphere that a seed may draw, four deviations off
+  base=$(awk -v s="$value" 'BEGIN {
+    least = 6 * 0.1 * exp(4 * s); printf "%.3g", (least > 1.6 ? least + 0.01 : 1.6) }')
+  count=1000 time=5
   [[ -z ${QUICK-} ]] || count=40 base=1.4 time=0.5
   options=(--sizes "lognormal:0.1,$value" --f0 70
     --kappa "$(awk -v s="$value" 'BEGIN { print 60 / (0.1 * exp(-4 * s)) }')")
