@@ -28,5 +28,5 @@ else
   options=(--sizes "lognormal:0.1,$value" --f0 70
     --kappa "$(awk -v s="$value" 'BEGIN { print 60 / (0.1 * exp(-4 * s)) }')")
 fi
-"$B/settle" --quiet --model basic --count "$count" --base $base,$base \
+"$B/settle" --quiet --model basic --count "$count" --base "$base,$base" \
   --periodic xy --drop 0.1 --time $time --seed "$seed" "${options[@]}"

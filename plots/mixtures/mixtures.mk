@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Frictionless mixtures beside what others expect of hard spheres of their sizes;
-# some 3 minutes of CPU time.
+# some 8 minutes of CPU time.
 MIXTURE_SEEDS := 1 2 $(if $(QUICK),,3)
 MIXTURE_NAMES := \
   $(foreach x,$(if $(QUICK),,0.4 0.6) 0.7 $(if $(QUICK),,0.8) 0.9,two-$(x)) \
