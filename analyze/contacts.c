@@ -335,6 +335,7 @@ int verb_contacts(int argc, char **argv) {
       {.name = "network", .type = OPTION_FLAG, .value = &set.network,
        .help = "one block per frame: the contacts with their forces"},
       MEAN_OPTION(means),
+      ORIGIN_OPTION(input),
       FRAMES_OPTIONS(input),
       {0}};
   /* clang-format on */

@@ -179,6 +179,7 @@ int verb_fraction(int argc, char **argv) {
        .most = 4096, .unit = "0: none",
        .help = "count N^3 midpoints as well"},
       MEAN_OPTION(mean),
+      ORIGIN_OPTION(input),
       FRAMES_OPTIONS(input),
       {0}};
   /* clang-format on */

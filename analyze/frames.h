@@ -15,6 +15,7 @@ struct frames_options {
   double radius;       /* of spheres that come without one (m); 0: none */
   const char *columns; /* what a row's columns are; NULL: their names say so */
   bool quiet;          /* no progress */
+  bool origin;         /* a table begins with what made it */
   bool may_be_empty;   /* a frame of no spheres is no error */
   bool many;           /* several files are no error */
   bool scene; /* walls and parameters count: say where there are none */

@@ -79,6 +79,7 @@ int verb_gr(int argc, char **argv) {
       {.name = "bins", .type = OPTION_SIZE, .value = &set.bins, .least = 1,
        .most = 1e6, .help = "of equal width from 0 to rmax"},
       MEAN_OPTION(mean),
+      ORIGIN_OPTION(input),
       FRAMES_OPTIONS(input),
       {0}};
   /* clang-format on */

@@ -104,6 +104,7 @@ int verb_hard(int argc, char **argv) {
       {.name = "deviation", .type = OPTION_DOUBLE, .value = &deviation,
        .most = 1, .unit = "0: 0.006 by the root of spheres by 200",
        .help = "standard deviation of one bed, for two beds"},
+      ORIGIN_OPTION(input),
       FRAMES_OPTIONS(input),
       {0}};
   /* clang-format on */

@@ -163,6 +163,7 @@ int verb_mixture(int argc, char **argv) {
       {.name = "close", .type = OPTION_FLAG, .value = &set.close,
        .help = "random close packing that others expect of the sizes instead"},
       MEAN_OPTION(means),
+      ORIGIN_OPTION(input),
       FRAMES_OPTIONS(input),
       {0}};
   /* clang-format on */

@@ -124,6 +124,7 @@ int verb_order(int argc, char **argv) {
       {.name = "spheres", .type = OPTION_FLAG, .value = &set.spheres,
        .help = "one block per frame: one row per sphere"},
       MEAN_OPTION(mean),
+      ORIGIN_OPTION(input),
       FRAMES_OPTIONS(input),
       {0}};
   /* clang-format on */

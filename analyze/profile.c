@@ -246,6 +246,7 @@ int verb_profile(int argc, char **argv) {
       {.name = "points", .type = OPTION_SIZE, .value = &points, .least = 1,
        .most = 1e8, .help = "rows per frame, at the middles of equal parts"},
       MEAN_OPTION(mean),
+      ORIGIN_OPTION(input),
       FRAMES_OPTIONS(input),
       {0}};
   /* clang-format on */

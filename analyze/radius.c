@@ -200,6 +200,7 @@ int verb_radius(int argc, char **argv) {
       {.name = "report", .type = OPTION_FLAG, .value = &report,
        .help = "a table of the effect of each choice, instead of the bed"},
       MEAN_OPTION(mean),
+      ORIGIN_OPTION(input),
       FRAMES_OPTIONS(input),
       {0}};
   /* clang-format on */

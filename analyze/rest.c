@@ -119,6 +119,7 @@ int verb_rest(int argc, char **argv) {
   struct option_spec options[] = {
       BOX_OPTION(given, "for the fraction" BASE_BOX),
       MEAN_OPTION(mean),
+      ORIGIN_OPTION(input),
       FRAMES_OPTIONS(input),
       {0}};
   /* clang-format on */

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "files/numbers.h"
+#include "program/command_line.h"
 #include "program/origin.h"
 
 struct table_cell {
@@ -51,8 +52,8 @@ void table_frame(struct table *t, enum table_layout layout, const char *names) {
   t->names = names;
   if (t->frames_count)
     put_gap(t);
-  else
-    origin_of_table();
+  else if (t->frames->options.origin)
+    origin_write(stdout, &origin_comment, command_line(), NULL);
   if (!t->frames_count || layout == TABLE_BLOCKS)
     put_names(t);
   begin(&t->each, true);

@@ -12,6 +12,10 @@
 #define MEAN_OPTION(mean_)                                                     \
   {.name = "mean", .type = OPTION_FLAG, .value = &(mean_),                     \
    .help = "add mean and standard error over beds, or over one bed's frames"}
+/* Row of an option table, into a struct frames_options s. */
+#define ORIGIN_OPTION(s)                                                       \
+  {.name = "origin", .type = OPTION_FLAG, .value = &(s).origin,                \
+   .help = "begin with lines # that say what made the table"}
 /* clang-format on */
 
 enum table_layout {

@@ -372,11 +372,12 @@ static void note_origin(const struct run *r, struct bed_header *h) {
     die(EXIT_IO, "out of memory");
 }
 
-/* The log begins as the bed, with version, parameters, build and kernel. As the
-   bed, it has no command line: it is the same if a run goes on. */
+/* With --origin the log begins as the bed, with version, parameters, build and
+   kernel. As the bed, it has no command line: it is the same if a run goes
+   on. */
 static void begin_log(struct run *r) {
   FILE *log = r->log.stream;
-  for (size_t k = 0; k < r->header->count; k++) {
+  for (size_t k = 0; k < r->header->count && r->set->origin; k++) {
     const struct bed_key *key = &r->header->at[k];
     if (strcmp(key->name, "format") && strcmp(key->name, "t"))
       origin_put(log, &origin_comment, key->name, key->value);

@@ -32,6 +32,7 @@ struct settings {
   size_t frames, threads;
   bool all_pairs; /* by pairs */
   bool until_rest, allow_partial, quiet;
+  bool origin; /* in the log */
 };
 
 #endif

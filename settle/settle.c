@@ -92,6 +92,12 @@ static void take_method_of_export(struct settings *s,
   method->given = true; /* as a scene's own is not for it */
 }
 
+static void check_log(const struct settings *s) {
+  if (s->origin && !s->log)
+    die(EXIT_USAGE, "--origin: expected --log beside it; beds and statistics "
+                    "say it anyway");
+}
+
 static void check_checkpoint(const struct settings *s,
                              struct option_spec *options) {
   if (!s->checkpoint) {
@@ -200,6 +206,8 @@ int main(int argc, char **argv) {
       STATS_OPTION(s.stats),
       {.name = "log", .type = OPTION_TEXT, .value = &s.log,
        .help = "file for one row per accepted step"},
+      {.name = "origin", .type = OPTION_FLAG, .value = &s.origin,
+       .help = "the log begins with lines # that say what made it"},
       {.name = "output", .type = OPTION_TEXT, .value = &s.output,
        .help = "file for the bed, instead of standard output"},
       {.name = "checkpoint", .type = OPTION_TEXT, .value = &s.checkpoint,
@@ -250,6 +258,7 @@ int main(int argc, char **argv) {
     s.all_pairs = !strcmp(s.pairs, pair_searches[ALL]);
   } else {
     start_make(&s, options, &bed, &header);
+    check_log(&s);
     check_checkpoint(&s, options);
   }
   integration_check(&s.integrate, bed.n);

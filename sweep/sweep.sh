@@ -32,6 +32,7 @@ slurm||flag|run as an array of Slurm jobs, --jobs at a time, 0: as many as there
 sbatch|OPTIONS|text|for Slurm, such as '--partition=long'|
 dry-run||flag|print the command line of each run instead|
 summary|COLUMNS|text|instead, of a table of results: means and standard errors of rows that share these columns; '': of all|
+origin||flag|begin with lines # that say what made the table|
 quiet||flag|no progress on a terminal|"
 
 die() { # STATUS MESSAGE
@@ -55,11 +56,11 @@ clear_line() {
 version() {
   settle --version | sed 's/.* //'
 }
-# What made a table, in lines of comment at the head of a file that is still
-# empty, as settle and analyze have them. Where and how runs are run is no part.
+# What made a table, in lines of comment, as settle and analyze have them. Where and
+# how runs are run is no part.
 origin() { # WORD...: of the command line; more lines come on standard input
   local word
-  [[ -f /dev/stdout && ! -s /dev/stdout ]] || return 0
+  [[ -n $origin ]] || return 0
   printf '# %s\n' program=sweep "version=$(version)" || written
   sed -n '/^# \(build\|kernel\)=/p' || written
   printf '# command=sweep' || written
@@ -671,7 +672,7 @@ sweep_all() {
 
 # --- the command line ---------------------------------------------------------
 file=- measures=() settle='' jobs=1 keep='' work='' parallel='' sshlogins=()
-slurm='' sbatch='' dry=0 groups='' quiet='' run='' task='' operands=0
+slurm='' sbatch='' dry=0 groups='' origin='' quiet='' run='' task='' operands=0
 summarizes=''
 for program in settle analyze; do
   command -v $program >/dev/null ||
@@ -712,6 +713,7 @@ while (($#)); do
     --sbatch) sbatch+=${sbatch:+ }$value ;;
     --dry-run) dry=1 ;;
     --summary) groups=$value summarizes=1 ;;
+    --origin) origin=1 ;;
     --quiet) quiet=1 ;;
     --run) run=$value ;;
     --task) task=$value ;;

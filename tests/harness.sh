@@ -56,10 +56,6 @@ refused() { # STATUS WORDS COMMAND...
   check "output without a bed: ${*:3}" [ ! -s "$T/out" ]
 }
 
-bare() { # FILE...: tables without their lines of comment, in place
-  sed -i '/^#/d' "$@"
-}
-
 unsealed() { # FILE...: a bed without its checksums, to be changed
   grep -v '^# checksum=' "$@"
 }

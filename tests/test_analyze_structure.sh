@@ -31,8 +31,8 @@ total() { # COLUMN [CONDITION]: sum over all rows
 }
 
 measure() { # ARGUMENT...: into $T/out
-  timeout 60 "$B/analyze" "$@" 2>"$T/err" </dev/null | cat >"$T/out"
-  status=${PIPESTATUS[0]}
+  timeout 60 "$B/analyze" "$@" >"$T/out" 2>"$T/err" </dev/null
+  status=$?
   [[ $status == 0 && ! -s $T/err ]] || {
     echo "analyze $*: exit status $status" >&2
     cat "$T/err" >&2
@@ -191,7 +191,7 @@ check 'bed: nearly balanced' near "$(value unbalanced)" 0 0.02
 measure contacts --network "$T/smooth"
 is 'frictionless: no tangential force' "$(total tangential)" 0
 "$B/settle" --quiet --count 60 --base 0.6,0.6 --time 0.5 --frames 3 |
-  "$B/analyze" contacts | cat >"$T/out"
+  "$B/analyze" contacts >"$T/out"
 is 'a pipe of three frames' "$(wc -l <"$T/out")" 4
 
 # What is refused.

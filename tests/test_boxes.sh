@@ -7,8 +7,8 @@
 . tests/harness.sh
 
 run() { # ARGUMENT...: of analyze; into $T/out, $T/err and $status
-  timeout 60 "$B/analyze" "$@" 2>"$T/err" </dev/null | cat >"$T/out"
-  status=${PIPESTATUS[0]}
+  timeout 60 "$B/analyze" "$@" >"$T/out" 2>"$T/err" </dev/null
+  status=$?
 }
 
 last() { # NAME: a column of the last row in $T/out

@@ -460,7 +460,6 @@ stat() {
   awk -F '\t' -v k="$1" '$1 == k {print $2}' "$T/files/stats"
 }
 check '--stats: t_end' is_close "$(stat t_end)" 0.6 0
-bare "$T/files/log"
 check '--log: columns' test "$(head -n 1 "$T/files/log")" = \
   $'t\th\tsteps\tevaluations\tkinetic\tpotential'
 check '--log: a row for each step' test "$(tail -n +2 "$T/files/log" | wc -l)" \
@@ -696,18 +695,15 @@ check '--until-rest, what it lost' is_close \
 
 # --- analyze and bounce, at all -----------------------------------------------
 succeed 'analyze' analyze "$T/good"
-bare "$T/out"
 ball=$(awk 'BEGIN {printf "%.17g", 4 * atan2(0, -1) / 3 * 0.001}')
 check 'analyze: columns' test "$(head -n 1 "$T/out")" = $'t\tsum\tunion'
 check 'analyze: a ball' is_close "$(tail -n 1 "$T/out" | cut -f 2)" "$ball" \
   1e-16
 cp "$T/out" "$T/a"
 succeed 'analyze fraction' analyze fraction "$T/good"
-bare "$T/out"
 check 'fraction is the default verb' cmp -s "$T/a" "$T/out"
 "$B/analyze" <"$T/good" >"$T/b"
 "$B/analyze" - <"$T/good" >"$T/c"
-bare "$T/b" "$T/c"
 check 'analyze reads a pipe' cmp -s "$T/a" "$T/b"
 check 'analyze - reads a pipe' cmp -s "$T/a" "$T/c"
 succeed 'analyze: a box' analyze --box 0,0.5,0,1,0,2 "$T/good"
@@ -715,7 +711,6 @@ succeed 'analyze: a box' analyze --box 0,0.5,0,1,0,2 "$T/good"
 check 'analyze: half a ball' is_close "$(tail -n 1 "$T/out" | cut -f 3)" \
   "$(awk -v b="$ball" 'BEGIN {printf "%.17g", b / 2}')" 1e-16
 succeed 'analyze: frames' analyze "$T/frames"
-bare "$T/out"
 check 'analyze: a row for each frame' test "$(wc -l <"$T/out")" = 601
 check 'analyze: their times' cmp -s <(tail -n +2 "$T/out" | cut -f 1) \
   <(key t "$T/frames")

@@ -15,7 +15,7 @@ refused 2 'reaches up to' "$B/settle" --count 200 --lid 2
 check 'a lid is a wall of the header' grep -qx '# wall=0 0 1.5 0 0 1' "$T/lid.bed"
 # upwards: spheres end under it
 "$B/settle" --quiet --scene "$T/lid.bed" --gravity 0,0,9.81 --time 2 |
-  "$B/analyze" contacts --box 0,1,0,1,1.3,1.5 | cat > "$T/tsv"
+  "$B/analyze" contacts --box 0,1,0,1,1.3,1.5 > "$T/tsv"
 within 'spheres under the lid' "$(row spheres "$T/tsv")" 16 16
 within 'the lid carries them' "$(row floor "$T/tsv")" 0.9 1.1
 
@@ -39,14 +39,14 @@ for method in rkc multirate; do
   within "$method: they hold the spheres" "$(awk '$NF == 0 && /^[0-9]/ {
     if (least == "" || $4 < least) least = $4 } END { print least }' \
     "$T/$method.bed")" 0.1 0.21
-  "$B/analyze" contacts --gap 0.002 "$T/$method.bed" | cat > "$T/tsv"
+  "$B/analyze" contacts --gap 0.002 "$T/$method.bed" > "$T/tsv"
   within "$method: spheres that are looked at" "$(row spheres "$T/tsv")" 48 48
 done
-"$B/analyze" order --margin 0 "$T/rkc.bed" | cat > "$T/tsv"
+"$B/analyze" order --margin 0 "$T/rkc.bed" > "$T/tsv"
 within 'order looks at spheres that are no obstacles' "$(row spheres "$T/tsv")" 48 48
 # the volume of all that stand apart, obstacles too
 awk 'BEGIN { print "x\ty\tz\tr\tfixed\n0\t0\t0\t1\t1\n9\t0\t0\t1\t0" }' |
-  "$B/analyze" --box -9,19,-9,9,-9,9 | cat > "$T/tsv"
+  "$B/analyze" --box -9,19,-9,9,-9,9 > "$T/tsv"
 within 'fraction counts obstacles' "$(awk -v f="$(row union "$T/tsv")" \
   'BEGIN { print f * 28 * 18 * 18 / (8 / 3 * atan2(0, -1)) - 1 }')" -1e-12 1e-12
 "$B/analyze" export --format bed "$T/rkc.bed" 2> "$T/err" > "$T/again.bed"
@@ -80,7 +80,7 @@ END
 "$B/settle" --quiet --scene "$T/rkc.bed" --time 6 > "$T/rest.bed"
 check 'going on keeps it' cmp -s <(unsealed "$T/rest.bed" |
   grep '^# [wc].*=') "$T/keys"
-"$B/analyze" contacts "$T/rest.bed" | cat > "$T/tsv"
+"$B/analyze" contacts "$T/rest.bed" > "$T/tsv"
 within 'floor and tube carry the weight' "$(awk -v f="$(row floor "$T/tsv")" \
   -v s="$(row sides "$T/tsv")" 'BEGIN { print f + s }')" 0.95 1.05
 check 'contacts names the tube as wall 2' [ "$("$B/analyze" contacts --network \
@@ -113,7 +113,7 @@ check 'periodic sides in the header' cmp -s \
 END
 within 'places are in the cell' "$(awk '/^[0-9]/ && ($2 < 0 || $2 >= 0.8 ||
   $3 < 0 || $3 >= 0.7) { n++ } END { print n + 0 }' "$T/periodic.bed")" 0 0
-"$B/analyze" contacts "$T/periodic.bed" | cat > "$T/tsv"
+"$B/analyze" contacts "$T/periodic.bed" > "$T/tsv"
 within 'the floor carries all of it' "$(row floor "$T/tsv")" 0.98 1.02
 "$B/settle" --quiet --scene "$T/periodic.bed" --time 3.2 > "$T/on.bed"
 check 'going on keeps periodic sides' cmp -s <(grep '^# [pbw].*=' "$T/on.bed") \
@@ -126,7 +126,7 @@ unsealed "$T/periodic.bed" | grep -v '^# base' > "$T/bad.bed"
 refused 3 'periodic' "$B/analyze" contacts "$T/bad.bed"
 # all volume is in a cell that holds the bed, wherever it begins
 for x in 0,0.8 0.33,1.13 -5,-4.2; do
-  "$B/analyze" --box $x,-0.1,0.6,-1,9 "$T/periodic.bed" | cat > "$T/tsv"
+  "$B/analyze" --box $x,-0.1,0.6,-1,9 "$T/periodic.bed" > "$T/tsv"
   within "volume in $x" "$(awk -v f="$(row sum "$T/tsv")" 'BEGIN {
     print f * 0.8 * 0.7 * 10 / (60 * 4e-3 / 3 * atan2(0, -1)) - 1 }')" -1e-12 1e-12
   row union "$T/tsv" >> "$T/unions"
@@ -135,8 +135,8 @@ within 'its union is the same' "$(awk 'NR == 1 { a = $1 } { d = a - $1
   if (d < 0) d = -d; if (d > most) most = d } END { print most }' "$T/unions")" 0 1e-13
 check 'default box of periodic sides' cmp -s <("$B/analyze" "$T/periodic.bed") \
   <("$B/analyze" --box 0,0.8,0,0.7,0,0.7 "$T/periodic.bed")
-"$B/analyze" profile --points 50 --box 0.2,1,0.1,0.8,-1,9 "$T/periodic.bed" | cat > "$T/a.tsv"
-"$B/analyze" profile --points 50 --box 0,0.8,0,0.7,-1,9 "$T/periodic.bed" | cat > "$T/b.tsv"
+"$B/analyze" profile --points 50 --box 0.2,1,0.1,0.8,-1,9 "$T/periodic.bed" > "$T/a.tsv"
+"$B/analyze" profile --points 50 --box 0,0.8,0,0.7,-1,9 "$T/periodic.bed" > "$T/b.tsv"
 within 'profile across periodic sides' "$(paste "$T/a.tsv" "$T/b.tsv" | awk '
   NR > 1 { d = $3 - $7; if (d < 0) d = -d; if (d > most) most = d }
   END { print most }')" 0 1e-12
@@ -171,8 +171,8 @@ same() { # TOLERANCE: two tables, every number, times the larger of it and 1
 }
 moved 0.37 -2.11 > "$T/moved.bed"
 while read -r verb; do
-  "$B/analyze" $verb "$T/periodic.bed" 2> "$T/err" | cat > "$T/a.tsv"
-  "$B/analyze" $verb "$T/moved.bed" 2>> "$T/err" | cat > "$T/b.tsv"
+  "$B/analyze" $verb "$T/periodic.bed" 2> "$T/err" > "$T/a.tsv"
+  "$B/analyze" $verb "$T/moved.bed" 2>> "$T/err" > "$T/b.tsv"
   check "$verb: of a bed that was moved" same 1e-9
   check "$verb: without a word" [ ! -s "$T/err" ]
 done << 'END'
@@ -190,14 +190,14 @@ mixture --profile 3
 radius --report --keep fraction=0.5
 END
 for verb in contacts mixture order gr rest; do # a box that moves along
-  "$B/analyze" $verb --box 0,0.35,0,0.4,0,0.5 "$T/periodic.bed" | cat > "$T/a.tsv"
-  "$B/analyze" $verb --box 0.37,0.72,-2.11,-1.71,0,0.5 "$T/moved.bed" | cat > "$T/b.tsv"
+  "$B/analyze" $verb --box 0,0.35,0,0.4,0,0.5 "$T/periodic.bed" > "$T/a.tsv"
+  "$B/analyze" $verb --box 0.37,0.72,-2.11,-1.71,0,0.5 "$T/moved.bed" > "$T/b.tsv"
   check "$verb: in a box that moves along" same 1e-9
 done
 check 'rest takes the union of all images' [ "$("$B/analyze" rest "$T/periodic.bed" |
   awk 'NR == 2 { print $6 }')" = "$("$B/analyze" "$T/periodic.bed" |
   awk 'NR == 2 { print $3 }')" ]
-"$B/analyze" mixture --classes 0.05,0.2 "$T/periodic.bed" | cat > "$T/tsv"
+"$B/analyze" mixture --classes 0.05,0.2 "$T/periodic.bed" > "$T/tsv"
 within 'classes add up to the fraction of all images' "$(awk \
   -v f="$("$B/analyze" "$T/periodic.bed" | awk 'NR == 2 { print $2 }')" '
   NR > 1 { s += $7 } END { print s / f - 1 }' "$T/tsv")" -1e-12 1e-12
@@ -209,38 +209,38 @@ awk 'BEGIN { a = 0.2 * sqrt(2)
     if ((i + j + k) % 2 == 0)
       printf "%.17g\t%.17g\t%.17g\n", i * a / 2, j * a / 2, 0.1 + k * a / 2
   print "# status=ok" }' > "$T/fcc.bed"
-"$B/analyze" order --margin 1.3 "$T/fcc.bed" | cat > "$T/tsv"
+"$B/analyze" order --margin 1.3 "$T/fcc.bed" > "$T/tsv"
 within 'fcc: spheres but for two layers above and below' "$(row spheres "$T/tsv")" 72 72
 within 'fcc: neighbours' "$(row neighbours "$T/tsv")" 12 12
 within 'fcc: all of them' "$(row fcc "$T/tsv")" 1 1
 within 'fcc: q4' "$(row q4 "$T/tsv")" 0.190940653 0.190940654
 within 'fcc: q6' "$(row q6 "$T/tsv")" 0.574524259 0.574524260
 # pairs of neighbours: 4 within each of 8 layers by 2, 4 to each next layer
-"$B/analyze" gr --rmax 1.1 --bins 11 "$T/fcc.bed" | cat > "$T/tsv"
+"$B/analyze" gr --rmax 1.1 --bins 11 "$T/fcc.bed" > "$T/tsv"
 within 'fcc: pairs that touch' "$(awk '{ n += $4 } END { print n }' "$T/tsv")" \
   $((18 * (8 * 2 + 7 * 4))) $((18 * (8 * 2 + 7 * 4)))
-"$B/analyze" radius --report "$T/fcc.bed" | cat > "$T/tsv"
+"$B/analyze" radius --report "$T/fcc.bed" > "$T/tsv"
 within 'fcc: the radius at which spheres touch' \
   "$(awk '$2 == "touching" { print $3 }' "$T/tsv")" 0.0999999999 0.1000000001
 # a tube has no corners: the centres of the bed are in the cylinder they span, of
 # which all pairs are found and expected
-"$B/analyze" gr --rmax 20 --bins 100 "$T/rest.bed" | cat > "$T/tsv"
+"$B/analyze" gr --rmax 20 --bins 100 "$T/rest.bed" > "$T/tsv"
 within 'gr of a tube: all pairs' "$(awk 'NR > 1 { n += $4 } END { print n }' \
   "$T/tsv")" 435 435
 within 'gr of a tube: all expected' "$(awk 'NR > 1 { n += $5 } END { print n }' \
   "$T/tsv")" 434.999 435.001
 # pairs within a thousandth of a diameter: by that share of the cylinder's volume, of
 # which three of the centres, on its surface, have half
-"$B/analyze" gr --rmax 1e-3 --bins 1 "$T/rest.bed" | cat > "$T/tsv"
+"$B/analyze" gr --rmax 1e-3 --bins 1 "$T/rest.bed" > "$T/tsv"
 within 'gr of a tube: what the centres span' "$(awk -v pi=3.14159265358979 '
   FNR == NR { if (FNR == 2) shell = $5; next }
   /^[0-9]/ { a = ($2 - 0.3)^2 + ($3 - 0.2)^2; if (a > most) most = a
     if (!n++ || $4 < low) low = $4; if ($4 > high) high = $4 }
   END { volume = 4 / 3 * pi * 0.0002^3 * 14.5 * (30 - 1.5) / shell
     print volume / (pi * most * (high - low)) - 1 }' "$T/tsv" "$T/rest.bed")" -1e-3 1e-3
-"$B/analyze" order --margin 0 "$T/rest.bed" | cat > "$T/tsv"
+"$B/analyze" order --margin 0 "$T/rest.bed" > "$T/tsv"
 within 'order of a tube: none is left out' "$(row spheres "$T/tsv")" 30 30
-"$B/analyze" order --margin 0.6 "$T/rest.bed" | cat > "$T/tsv"
+"$B/analyze" order --margin 0.6 "$T/rest.bed" > "$T/tsv"
 within 'order of a tube: those that are not at the wall' "$(row spheres "$T/tsv")" \
   "$(awk '/^[0-9]/ { a = sqrt(($2 - 0.3)^2 + ($3 - 0.2)^2); z[n] = $4; r[n++] = a
     if (a > most) most = a; if (n == 1 || $4 < low) low = $4; if ($4 > high) high = $4 }
@@ -248,9 +248,9 @@ within 'order of a tube: those that are not at the wall' "$(row spheres "$T/tsv"
       z[k] <= high - 0.12) in_++; print in_ + 0 }' "$T/rest.bed")" 20
 # the square inscribed in a tube
 half=$(awk 'BEGIN { printf "%.17g", 0.35 * sqrt(0.5) }')
-"$B/analyze" "$T/rest.bed" | cat > "$T/a.tsv"
+"$B/analyze" "$T/rest.bed" > "$T/a.tsv"
 "$B/analyze" --box "$(awk -v h="$half" 'BEGIN { printf "%.17g,%.17g,%.17g,%.17g,0,%.17g",
-  0.3 - h, 0.3 + h, 0.2 - h, 0.2 + h, 2 * h }')" "$T/rest.bed" | cat > "$T/b.tsv"
+  0.3 - h, 0.3 + h, 0.2 - h, 0.2 + h, 2 * h }')" "$T/rest.bed" > "$T/b.tsv"
 within 'default box of a tube' "$(awk -v a="$(row union "$T/a.tsv")" \
   -v b="$(row union "$T/b.tsv")" 'BEGIN { print a - b }')" -1e-9 1e-9
 # a checkpoint goes on to the last bit

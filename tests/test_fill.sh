@@ -127,7 +127,7 @@ END
     '^# jitter=' "$T/a.bed")" = 0 ]
   "$B/settle" --quiet --fill $fill --count 50 --time 4 > "$T/below.bed" 2> "$T/err"
   check "$fill settles" [ $? -eq 0 ]
-  "$B/analyze" contacts "$T/below.bed" | cat > "$T/tsv"
+  "$B/analyze" contacts "$T/below.bed" > "$T/tsv"
   within "$fill: the floor carries it" "$(awk 'NR == 1 { for (k = 1; k <= NF; k++)
     at[$k] = k } NR == 2 { print $at["floor"] }' "$T/tsv")" 0.8 1.1
   "$B/settle" --quiet --scene "$T/below.bed" --time 4.01 > "$T/on.bed"

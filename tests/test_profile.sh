@@ -7,8 +7,8 @@
 run() { # PROGRAM ARGUMENT...: into $T/out, $T/err and $status
   local program=$1
   shift
-  timeout 20 "$B/$program" "$@" 2>"$T/err" </dev/null | cat >"$T/out"
-  status=${PIPESTATUS[0]}
+  timeout 20 "$B/$program" "$@" >"$T/out" 2>"$T/err" </dev/null
+  status=$?
 }
 
 refuse() { # NAME STATUS PATTERN ARGUMENT...: one line of analyze's, no result

@@ -102,7 +102,7 @@ shows 'bounce' '^bounce: +[0-9]+ %  t=[0-9.]+ s .* s left'
 # rows on the same terminal: each on a line of its own
 script -qec "timeout 120 '$T/slowly' '$B/analyze' profile --points 3000 '$T/one.csv'" \
   /dev/null | tr -d '\r' >"$T/screen"
-"$B/analyze" profile --points 3000 "$T/one.csv" | cat >"$T/rows"
+"$B/analyze" profile --points 3000 "$T/one.csv" >"$T/rows"
 shows 'rows on the terminal' 'frame 1  [0-9]+ s left'
 check 'rows on the terminal: whole' cmp -s "$T/rows" \
   <(sed 's/^.*\x1b\[K//; s/analyze: .* left //' "$T/screen")

@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # What a file says of its origin: every program, verb and format writes one, which
-# has the version and the command line, unless its format has no place for them
+# has the version and the command line, unless its format has no place for them;
+# tables have it by --origin
 # (docs/reliability.md, "What a file says of its origin"). Run from the root of the
 # repository; B is the directory of the programs.
 . tests/harness.sh
@@ -11,7 +12,7 @@ cd "$T" || exit 1
 PATH=$B:$PATH
 
 settle --quiet --count 12 --time 0.8 --frames 2 --log log \
-  --stats stats >bed.tsv || exit 1
+  --origin --stats stats >bed.tsv || exit 1
 frames=$(grep -c '^id' bed.tsv)
 sum=$(grep '^# checksum=' bed.tsv | tail -n 1 | sed 's/.*=//')
 bed="bed.tsv, checksum $sum"
@@ -61,12 +62,13 @@ for verb in fraction 'fraction --slab 0.2' profile contacts 'contacts --network'
       --time 2 --kappa $kappa >"$([[ $kappa = 150 ]] && echo a || echo b).tsv"
   done
   # shellcheck disable=SC2086
-  analyze $verb --quiet "${files[@]}" >out 2>err
+  analyze $verb --origin --quiet "${files[@]}" >out 2>err
   check "analyze $verb: exit status" test $? = 0
-  table out "analyze $verb ${files[*]}"
+  table out "analyze $verb --origin ${files[*]}"
   # shellcheck disable=SC2086
-  check "analyze $verb: a pipe begins with the names" cmp -s <(bare out; cat out) \
-    <(analyze $verb "${files[@]}" 2>/dev/null)
+  analyze $verb "${files[@]}" >plain 2>/dev/null
+  check "analyze $verb: else it begins with the names" cmp -s \
+    <(grep -v '^#' out) plain
 done
 for verb in $(analyze --complete | grep -v '^-'); do
   case $verb in
@@ -74,18 +76,13 @@ for verb in $(analyze --complete | grep -v '^-'); do
     *) check "analyze $verb was tried" grep -qw "$verb" <<<"$named" ;;
   esac
 done
-analyze bed.tsv >out
-table out 'analyze bed.tsv'
-analyze <bed.tsv >>out
-check 'a table behind another one has no lines of its own' test \
-  "$(grep -c '^# program=' out)" = 1
-analyze --mean bed.tsv bed.tsv >out
-table out 'analyze --mean bed.tsv bed.tsv'
+analyze --origin --mean bed.tsv bed.tsv >out
+table out 'analyze --origin --mean bed.tsv bed.tsv'
 # words that need quotes, and bytes that are no ASCII, as bash reads them back
 cp bed.tsv $'it\'s "ä"\n?.tsv'
-analyze $'it\'s "ä"\n?.tsv' >out
+analyze --origin $'it\'s "ä"\n?.tsv' >out
 check 'a name with quotes, letters and a line' test "$(eval "printf '%s\n' \
-  $(sed -n 's/^# command=analyze //p' out)")" = $'it\'s "ä"\n?.tsv'
+  $(sed -n 's/^# command=analyze --origin //p' out)")" = $'it\'s "ä"\n?.tsv'
 check 'is written in ASCII, without quotation marks' test -z \
   "$(sed -n '/^#/p' out | tr -d '\n\040\041\043-\176')"
 
@@ -183,8 +180,9 @@ fi
 
 # --- sweep ------------------------------------------------------------------------
 printf 'seed\n1\n2\n' >runs.tsv
-sweep --quiet --settle '--count 4 --time 0.1' --measure rest runs.tsv >swept.tsv 2>err
+sweep --quiet --origin --settle '--count 4 --time 0.1' --measure rest runs.tsv \
+  >swept.tsv 2>err
 table swept.tsv "sweep --settle '--count 4 --time 0.1' --measure rest runs.tsv"
-sweep --summary '' swept.tsv >out
+sweep --origin --summary '' swept.tsv >out
 has summary out "# version=$version" "# command=sweep --summary '' swept.tsv"
 check_done

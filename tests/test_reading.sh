@@ -5,7 +5,6 @@
 # a = pi/6000 of the box that is used here. Run from the root of the repository;
 # B is the directory of the programs.
 . tests/harness.sh
-set -o pipefail # tables come through pipes, which have no lines of origin
 
 cases=tests/cases
 box=--box=-10,10,-10,10,-10,10
@@ -13,7 +12,7 @@ a=5.2359877559829887e-4
 
 reads() { # FILE ROWS OPTION...: a row each "t spheres", by their volume
   local rows=$2
-  "$B/analyze" $box "${@:3}" "$cases/$1" 2>"$T/err" | cat >"$T/out"
+  "$B/analyze" $box "${@:3}" "$cases/$1" >"$T/out" 2>"$T/err"
   check "$1: exit status $?" test $? = 0
   awk -v a=$a 'NR > 1 {printf "%s %.9g\n", $1, $2 / a}' "$T/out" >"$T/got"
   check "$1: '$(tr '\n' ';' <"$T/got")', expected '$rows'" \
@@ -25,7 +24,7 @@ says() { # FILE PATTERN: the last one read was read with this remark
 }
 
 refuses() { # FILE PATTERN OPTION...
-  "$B/analyze" $box "${@:3}" "$cases/$1" 2>"$T/err" | cat >"$T/out"
+  "$B/analyze" $box "${@:3}" "$cases/$1" >"$T/out" 2>"$T/err"
   local status=$?
   check "$1: exit status $status" test $status = 3
   check "$1: one line, '$2'" test "$(wc -l <"$T/err")" = 1 -a \
@@ -56,7 +55,7 @@ reads keys-of-others.tsv '0 1'
 # one that looks like ours is told why it does not count
 for key in radius=0.25 ' radius=0.25' radios=0.25; do
   printf '#%s\nx,y,z\n0,0,0\n' "$key" >"$T/key"
-  ! "$B/analyze" "$T/key" 2>"$T/err" | cat >"$T/out"
+  ! "$B/analyze" "$T/key" >"$T/out" 2>"$T/err"
   check "#$key: refused" [ $? -eq 0 ]
   check "#$key: why" [ "$(grep -c "no radius: a key counts only under '# format" \
     "$T/err")" = "$([[ $key == radios* ]] && echo 0 || echo 1)" ]
@@ -132,7 +131,7 @@ reads empty-first.dump '0 0;100 1'
 reads empty-first.xyz '0 0;1 1'
 for f in empty-first.dump empty-first.xyz; do
   for verb in contacts rest order; do
-    "$B/analyze" $verb $cases/$f 2>"$T/err" | cat >"$T/out"
+    "$B/analyze" $verb $cases/$f >"$T/out" 2>"$T/err"
     check "$f: $verb of the frame that has a sphere: status $?" test $? = 0 -a \
       "$(wc -l <"$T/out")" = 2
   done
@@ -143,7 +142,7 @@ reads empty-last.xyz '0 1;1 1;2 0'
 "$B/analyze" export --format positions $cases/empty-last.xyz >"$T/out" 2>/dev/null
 check 'empty-last.xyz: positions' cmp -s "$T/out" <(printf '0\t0\t3\n')
 "$B/analyze" export --format bed $cases/empty-last.xyz 2>/dev/null |
-  "$B/analyze" $box 2>/dev/null | cat >"$T/out"
+  "$B/analyze" $box >"$T/out" 2>/dev/null
 check 'empty-last.xyz: a bed that is one' awk -v a=$a '
   NR == 2 {good = $1 == 1 && $3 / a - 1 < 1e-12 && 1 - $3 / a < 1e-12}
   END {exit !good || NR != 2}' "$T/out"
@@ -221,7 +220,7 @@ check "a scene with --wall: status $?" test $? = 0 -a ! -s "$T/err"
 check 'a scene with --wall: it is in the header' grep -qx '# wall=0 0 -5 0 0 -1' \
   "$T/out"
 for verb in contacts rest; do
-  "$B/analyze" $verb $cases/paraview.csv 2>"$T/err" | cat >"$T/out"
+  "$B/analyze" $verb $cases/paraview.csv >"$T/out" 2>"$T/err"
   check "$verb: no walls" test "$(grep -c 'paraview.csv: has no walls' \
     "$T/err")" = 1
 done
@@ -233,10 +232,10 @@ check 'a bed of it' test "$("$B/analyze" $box "$T/bed" | tail -n 1)" = \
   "$("$B/analyze" $box $cases/paraview.csv | tail -n 1)"
 printf '# format=bed-1\n# t=0\nx\ty\tz\tr\n0\t0\t0\t1\n# status=ok\n' \
   >"$T/none"
-"$B/analyze" contacts "$T/none" 2>"$T/err" | cat >"$T/out"
+"$B/analyze" contacts "$T/none" >"$T/out" 2>"$T/err"
 check 'our own without walls: as it says' test ! -s "$T/err"
 printf 'x,y,z,r\n0,0,0,1\n0,0,0,1\n' >"$T/same"
-"$B/analyze" contacts "$T/same" 2>"$T/err" | cat >"$T/out"
+"$B/analyze" contacts "$T/same" >"$T/out" 2>"$T/err"
 check 'an error is one line still' test $? = 3 -a "$(wc -l <"$T/err")" = 1
 
 # --- columns that the user names, in every format -----------------------------
@@ -247,18 +246,18 @@ reads sphere.data '0 16' --columns id,-,r,-,x,y,z
 reads sphere.data '0 16' --columns -,-,r,-,x,y,z
 refuses keys-of-others.csv "6: 'x,y,z,r': expected rows of numbers in 5 col" \
   --columns x,y,z,-,r
-"$B/analyze" --columns x,y,z,r "$T/none" 2>"$T/err" | cat >"$T/out"
+"$B/analyze" --columns x,y,z,r "$T/none" >"$T/out" 2>"$T/err"
 check "--columns for a bed: status $?" test $? = 3 -a \
   "$(grep -c "$T/none:3: --columns: a bed has names" "$T/err")" = 1
 
 # --- options ------------------------------------------------------------------
 for list in x,y x,y,z,q x,y,z,T x,x,y,z ''; do
-  "$B/analyze" --columns "$list" $cases/positions.txt 2>"$T/err" | cat >"$T/out"
+  "$B/analyze" --columns "$list" $cases/positions.txt >"$T/out" 2>"$T/err"
   check "--columns '$list': status $?" test $? = 2 -a "$(wc -l <"$T/err")" = 1
 done
 for number in 0x10 nan inf 1e999 '1 2' 1,5 ''; do
   for option in --radius --until --slab; do
-    "$B/analyze" $option "$number" $cases/positions.txt 2>"$T/err" | cat >"$T/out"
+    "$B/analyze" $option "$number" $cases/positions.txt >"$T/out" 2>"$T/err"
     check "$option '$number': status $?" test $? = 2
   done
 done

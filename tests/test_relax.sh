@@ -22,7 +22,7 @@ relaxed() { # contacts by the header
   sed -n 's/^# relaxed=//p' "$T/bed"
 }
 most() { # kinetic energy by the log (J)
-  awk '/^[0-9]/ && $5 > most { most = $5 } END { print most + 0 }' "$T/log"
+  awk 'NR > 1 && $5 > most { most = $5 } END { print most + 0 }' "$T/log"
 }
 box='# wall=0 0 0 0 0 -1\n# wall=0 0 0 -1 0 0\n# wall=1 0 0 1 0 0
 # wall=0 0 0 0 -1 0\n# wall=0 1 0 0 1 0\n# base=1,1\n'
@@ -58,7 +58,7 @@ said 'crowd.bed: [0-9]* contacts between spheres .* denser than one that falls'
 within 'a crowd is let go' "$(most)" 0 4
 within 'a crowd settles' "$("$B/analyze" --box 0,1,0,1,0,0.6 "$T/bed" |
   awk 'END { print $3 }')" 0.6 0.75
-"$B/analyze" contacts "$T/bed" | cat > "$T/tsv"
+"$B/analyze" contacts "$T/bed" > "$T/tsv"
 within 'the floor carries it' "$(awk 'NR == 1 { for (k = 1; k <= NF; k++)
   at[$k] = k } NR == 2 { print $at["floor"] }' "$T/tsv")" 0.9 1.1
 "$B/settle" --quiet --count 60 --base 0.6,0.6 --time 2 > "$T/soft.bed"

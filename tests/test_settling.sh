@@ -10,7 +10,7 @@ settle_bed() {
   local name=$1
   shift
   "$B/settle" --quiet "$@" --stats "$T/$name.stats" > "$T/$name.bed" &&
-    "$B/analyze" "$T/$name.bed" > "$T/$name.tsv" && bare "$T/$name.tsv"
+    "$B/analyze" "$T/$name.bed" > "$T/$name.tsv"
 }
 sum() { awk 'NR == 2 { print $2 }' "$T/$1.tsv"; }
 union() { awk 'NR == 2 { print $3 }' "$T/$1.tsv"; }

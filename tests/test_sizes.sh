@@ -76,12 +76,12 @@ for sides in '' '--periodic xy'; do
   # shellcheck disable=SC2086 # words
   run a --count 60 --sizes 'mix:0.1*0.4,0.05*0.6' --kappa 600 --time 1 \
     --base 0.75,0.75 $sides
-  "$B"/analyze "$T/a" 2> "$T/err" | cat > "$T/whole"
-  "$B"/analyze mixture "$T/a" 2> "$T/err" | cat > "$T/classes"
+  "$B"/analyze "$T/a" > "$T/whole" 2> "$T/err"
+  "$B"/analyze mixture "$T/a" > "$T/classes" 2> "$T/err"
   within "sum of the classes, sides '$sides'" "$(paste <(tail -n 1 "$T/whole") \
     <(awk 'NR > 1 { s += $7 } END { printf "%.17g\n", s }' "$T/classes") |
     awk '{ print $4 / $2 }')" 0.999999999 1.000000001
-  "$B"/analyze mixture --profile 7 "$T/a" 2> "$T/err" | cat > "$T/slabs"
+  "$B"/analyze mixture --profile 7 "$T/a" > "$T/slabs" 2> "$T/err"
   within "sum of the slabs, sides '$sides'" "$(paste <(tail -n 1 "$T/whole") \
     <(awk 'NR > 1 && NF { s += $4 / 7 } END { printf "%.17g\n", s }' "$T/slabs") |
     awk '{ print $4 / $2 }')" 0.999999999 1.000000001

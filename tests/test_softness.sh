@@ -107,8 +107,7 @@ pearls 300 20 >"$T/30"
 pearls 600 19 >"$T/60"
 pearls 1200 18.5 >"$T/120"
 hard() {
-  "$B/analyze" hard --box 0,1,0,1,0,1 "$@" 2>"$T/err" | cat >"$T/out"
-  return "${PIPESTATUS[0]}"
+  "$B/analyze" hard --box 0,1,0,1,0,1 "$@" >"$T/out" 2>"$T/err"
 }
 column() {
   awk -F '\t' -v want="$1" '

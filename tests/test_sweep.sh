@@ -10,8 +10,8 @@ cd "$T" || exit 1
 tiny='--count 12 --base 0.5,0.5 --drop 0.2 --time 0.4'
 
 sweeps() { # STATUS NAME ARGUMENT...: output in out, messages in err
-  timeout 60 "$sweep" "${@:3}" 2>err </dev/null | cat >out
-  local status=${PIPESTATUS[0]}
+  timeout 60 "$sweep" "${@:3}" >out 2>err </dev/null
+  local status=$?
   check "$2: exit status $status" test $status = "$1"
 }
 cell() { # ROW COLUMN FILE
@@ -39,7 +39,7 @@ by_hand 3 --seed 3
 check 'cells are passed on' test \
   "$(cut -f 1,2 three | tail -n 3 | tr '\n\t' '; ')" = '1 0.2;2 0;3 -;'
 check 'nothing is left' test "$(echo *.sweep)" = '*.sweep'
-timeout 60 "$sweep" --settle "$tiny" <runs.tsv 2>err | cat >out
+timeout 60 "$sweep" --settle "$tiny" <runs.tsv >out 2>err
 check 'from standard input' cmp -s out three
 # the order is that of the table although the first run is by far the longest
 printf 'seed\tcount\ttime\n1\t60\t1\n2\t2\t0.1\n3\t2\t0.1\n' >order.tsv
@@ -216,7 +216,7 @@ sweeps 3 'no such group' --summary radius results.tsv
 check 'says so' grep -q 'results.tsv:1: no column radius' err
 sweeps 3 'no results' --summary seed runs.tsv
 sweeps 0 'of its own results' --settle "$tiny" runs.tsv
-"$sweep" --summary friction <out 2>err | cat >means
+"$sweep" --summary friction <out >means 2>err
 check 'through a pipe' test "$(sed -n 2p means | cut -f 6)" = \
   "$(cell 1 sum three)" -a "$(wc -l <means)" = 4
 

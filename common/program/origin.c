@@ -4,8 +4,6 @@
 
 #include <stdbool.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 #include "platform/system.h"
 #include "program/command_line.h"
 #include "program/messages.h"
@@ -53,12 +51,6 @@ char *origin_text(const char *bed) {
   if (!out || fclose(out) != 0)
     die(EXIT_IO, "out of memory");
   return text;
-}
-
-void origin_of_table(void) {
-  struct stat st;
-  if (fstat(STDOUT_FILENO, &st) == 0 && S_ISREG(st.st_mode) && st.st_size == 0)
-    origin_write(stdout, &origin_comment, command_line(), NULL);
 }
 
 void origin_name(char *text, size_t size) {

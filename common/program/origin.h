@@ -36,11 +36,6 @@ void origin_write_xml(FILE *out, const char *bed);
 /* All that as lines name=value. To be freed. */
 char *origin_text(const char *bed);
 
-/* At the head of a table on standard output: lines of comment, with the command
-   line, where that is a file that is still empty. To a pipe or a terminal a
-   table begins with its names. */
-void origin_of_table(void);
-
 /* "PROGRAM VERB VERSION", for a format that has room for no more. */
 void origin_name(char *text, size_t size);
 

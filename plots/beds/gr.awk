@@ -7,10 +7,7 @@ BEGIN {
   FS = OFS = "\t"
   split("12.706 4.303 3.182 2.776 2.571 2.447 2.365 2.306 2.262", student, " ")
 }
-FNR == 1 { named = 0 }
-/^#/ { next }
-!named {
-  named = 1
+FNR == 1 {
   files++
   for (k = 1; k <= NF; k++)
     at[$k] = k

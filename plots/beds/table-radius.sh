@@ -9,7 +9,7 @@ printf 'model\tradius\tseeds\tr (m)\tsum\tunion\tstandard error\t'
 printf 'mean overlap (%%)\tlargest (%%)\n'
 for model in "$@"; do
   awk -F '\t' -v model="$model" '
-    /^#/ || $1 == "t" {next}
+    $1 == "t" {next}
     NF {
       if (!($2 in n)) order[++choices] = $2
       k = $2; n[k]++; r[k] += $3; sum[k] += $4

@@ -32,7 +32,7 @@ for variant; do
       if ($2 > most[method]) most[method] = $2
     }
     $1 == "rhs_evaluations" { evaluations[method] += $2 }
-    FILENAME ~ /\.tsv$/ && /^[0-9]/ {
+    FILENAME ~ /\.tsv$/ && FNR > 1 {
       sum[method] += $2
       united[method] += $3
       bed[method, seed] = $3

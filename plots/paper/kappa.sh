@@ -8,7 +8,7 @@ echo "|---|---|---|---|---|---|---|"
 for name; do
   kinetic=$(tail -n 1 "$name.log" | cut -f 5)
   awk -v kappa="${name##*-}" -v kinetic="$kinetic" -F'\t' '
-    /^[0-9]/ { sum[$1] = $2; united[$1] = $3 }
+    { sum[$1] = $2; united[$1] = $3 }
     END {
       printf "| %s | %.4f | %.4f | %.4f | %.4f | %.4f | %.1e |\n", kappa,
         sum[1], sum[2], sum[4], sum[8], united[8], kinetic / 200

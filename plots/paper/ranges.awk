@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Mean, least and largest sum fraction at each time over the files of several
 # seeds, written by analyze. -v variant=NAME labels the block.
-FNR == 1 { named = 0; files++ }
-/^#/ { next }
-!named { named = 1; row = 0; next }
+FNR == 1 { row = 0; next }
 {
   row++
-  if (files == 1) times = row
+  if (FNR == NR) times = row
   t[row] = $1
   sum[row] += $2
   if (count_of[row]++ == 0) { least[row] = $2; most[row] = $2 }

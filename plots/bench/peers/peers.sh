@@ -241,7 +241,7 @@ measure() {
     return 1
   fi
   awk -v cpu="$cpu" -v speed="$speed" \
-    '/^[0-9]/ { print cpu, $2, $3, speed }' "$tmp/fraction" >> "$tmp/runs"
+    'NR == 2 { print cpu, $2, $3, speed }' "$tmp/fraction" >> "$tmp/runs"
 }
 
 # A row from $tmp/runs: means and standard errors over the seeds, the largest
