@@ -69,14 +69,13 @@ $(F)/peers.md: $(BENCH)/peers.tsv
 # The same start in each code and by our methods, at the same depth: a row for
 # each number of spheres, with the width of its base (m). Codes that are not installed have
 # no rows.
-GROWTH_COUNTS := $(if $(QUICK),20 40,200 2000 6000 20000 100000)
+GROWTH_COUNTS := $(if $(QUICK),20 40,200 2000 6000 20000)
 GROWTH_20 := 0.5
 GROWTH_40 := 0.75
 GROWTH_200 := 1
 GROWTH_2000 := 3.16
 GROWTH_6000 := 5.48
 GROWTH_20000 := 10
-GROWTH_100000 := 22.36
 GROWTH_SEEDS_200 := 1 2 3
 GROWTH_ROWS := multirate rkc verlet lammps-1e4 lammps-1e5 liggghts-1e4 \
   liggghts-1e5
@@ -96,8 +95,7 @@ $(BENCH)/growth/$(1)-$(2).tsv: | $(B)/settle $(B)/analyze
 endef
 # Not those that would take minutes each: both grow faster than the others.
 GROWTH_LONG := $(if $(QUICK),,2000-verlet 6000-rkc 6000-verlet \
-  20000-rkc 20000-verlet 100000-rkc 100000-verlet 100000-lammps-1e5 \
-  100000-liggghts-1e5)
+  20000-rkc 20000-verlet)
 GROWTH_NAMES := $(filter-out $(GROWTH_LONG),\
   $(foreach n,$(GROWTH_COUNTS),$(GROWTH_ROWS:%=$(n)-%)))
 $(foreach n,$(GROWTH_COUNTS),$(foreach r,$(GROWTH_ROWS),\
