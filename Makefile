@@ -140,16 +140,22 @@ $(B)/fuzz/readers: $(FUZZ_SOURCES) $(wildcard common/files/*.h)
 	  $(FUZZ_SOURCES) $(GSL_LIBS) -o $@
 
 INSTANTS ?= 200
-torture: all ## kill runs and go on, let each call fail, INSTANTS=200 (an hour)
-	B=$(B) tests/torture.sh $(INSTANTS)
+ROW ?= *
+torture: all ## kill runs and go on, let each call fail, INSTANTS=200 (an hour), ROW='malloc*'
+	B=$(B) tests/torture.sh $(INSTANTS) 1 '$(ROW)'
 
 threads: ## two threads under clang's thread sanitizer and archer (libomp-dev)
 	$(MAKE) $(B)/threads/settle $(B)/threads/analyze B=$(B)/threads CC=clang \
 	  CFLAGS='-O1 -g -fsanitize=thread'
 	B=$(B)/threads tests/threads.sh
 
-load: all ## 10,000 runs in a row, 64 at once, one for an hour
-	B=$(B) tests/load.sh
+RUNS ?= 10000
+SOAK ?= 3600
+load: all ## RUNS=10000 in a row, 64 at once, one for SOAK=3600 s
+	B=$(B) tests/load.sh $(RUNS) $(SOAK)
+
+million: all ## memory of 1,008,200 spheres over 1,000 evaluations (15 CPU minutes)
+	B=$(B) tests/million.sh
 
 valgrind: all ## small scenes of every method, and the verbs, under valgrind
 	B=$(B) tests/valgrind.sh
@@ -253,4 +259,4 @@ help: ## this list
 
 include plots/rules.mk plots/captions.mk settle/lammps/lammps.mk
 
-.PHONY: all check check-quick clients sanitize tidy torture threads load valgrind mutants fuzz fuzz-programs deps deps-developer demo man install uninstall clean help
+.PHONY: all check check-quick clients sanitize tidy torture threads load million valgrind mutants fuzz fuzz-programs deps deps-developer demo man install uninstall clean help

@@ -83,7 +83,7 @@ stop() { # WAY: of the process, which has ended if it was sooner done
       for ((k = 0; k < 500; k++)); do
         ! grep -q 'settle: t=.* so far' "$T/err" || break
         kill -0 $pid 2>/dev/null || return # the step was its last one
-        pause 0.01
+        sleep 0.01
       done
       ((k < 500)) || is_wrong 'USR1: no line'
       return
@@ -97,7 +97,7 @@ stop() { # WAY: of the process, which has ended if it was sooner done
         kill -s CONT $pid 2>/dev/null
       else
         kill -s ${ways[first]} $pid 2>/dev/null
-        pause "0.00$((RANDOM % 4))"
+        sleep "0.00$((RANDOM % 4))"
         kill -s ${ways[second]} $pid 2>/dev/null
       fi
       ;;
@@ -196,12 +196,6 @@ reached() { # sets now to where the checkpoint is; false: there is none
   [[ $line == '# t='* ]] && micro "${line#*=}"
 }
 
-mkfifo "$T/never"
-exec {never}<>"$T/never"
-pause() { # SECONDS: without a process for it
-  read -rt "$1" -u $never
-}
-
 # Two checkpoints, so that there is some progress each time; then some time, by the
 # clock or by the run, whose slow and fast parts both are met so.
 wait_for_progress() {
@@ -209,7 +203,7 @@ wait_for_progress() {
   now=
   k=0
   while ((k < 3)) && kill -0 $pid 2>/dev/null; do
-    pause 0.002
+    sleep 0.002
     reached
     [[ $now == "$seen" ]] || k=$((k + 1))
     seen=$now
@@ -217,12 +211,12 @@ wait_for_progress() {
   if ((RANDOM % 2)) && [[ -n $now ]]; then
     until=$((now + end / 10 * (RANDOM % 20) / 10))
     while ((now < until)) && kill -0 $pid 2>/dev/null; do
-      pause 0.002
+      sleep 0.002
       reached
     done
-    pause "0.00$((RANDOM % 10))"
+    sleep "0.00$((RANDOM % 10))"
   else
-    pause "0.0$((RANDOM % 4))$((RANDOM % 10))"
+    sleep "0.0$((RANDOM % 4))$((RANDOM % 10))"
   fi
 }
 

@@ -79,11 +79,12 @@ void output_open_at(struct output_file *f, const char *path,
                     struct output_mark *m);
 
 /* A file that is written again and again while the program works, each time as
-   a whole, and of which the last two are kept, the one before as path.old. The
-   first call is as output_open, but for a stream, and for a file that is not
-   regular, which is EXIT_USAGE; the second gives the stream, the third puts the
-   file in its place unless the stream or the caller failed. Both return false
-   with errno, and the last file is still there. */
+   a whole, and of which the last two are kept, the one before as path.old,
+   where there are hard links. The first call is as output_open, but for a
+   stream, and for a file that is not regular, which is EXIT_USAGE; the second
+   gives the stream, the third puts the file in its place unless the stream or
+   the caller failed. Both return false with errno, and the last file is still
+   there. */
 void output_reserve(struct output_file *f, const char *path);
 bool output_renew(struct output_file *f);
 bool output_renewed(struct output_file *f, bool good);
