@@ -75,6 +75,7 @@ end
 check 'from the one before: output' cmp -s "$T/whole/out" "$D/out"
 resume # of a run that has ended
 end
+check "it has ended: exit status $status" test "$status" = 0
 check 'it has ended: the same again' cmp -s "$T/whole/out" "$D/out"
 
 # what has been said is not said again: a bed that begins half in a wall

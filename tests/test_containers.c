@@ -776,6 +776,41 @@ static void test_layer(void) {
   world_free(&w);
 }
 
+/* Pairs of points across sides: whose they are, the way from one to the other,
+   and that there are all of them. */
+static void test_points(gsl_rng *rng) {
+  enum { N = 40 };
+  static const double period[3] = {1, 0.8, 0};
+  const double reach = 0.3; /* nearest images alone */
+  double x[3 * N];
+  for (int k = 0; k < 3 * N; k++)
+    x[k] = 0.8 * gsl_rng_uniform(rng);
+  size_t all = 0, found = 0, across = 0;
+  for (int i = 0; i < N; i++)
+    for (int j = 0; j < i; j++) {
+      double u[3];
+      vec3_sub(x + 3 * i, x + 3 * j, u);
+      periodic_nearest(period, u);
+      all += vec3_norm(u) <= reach;
+    }
+  struct periodic_pairs p = {0};
+  CHECK(periodic_pairs_find(&p, N, x, reach, period) == GSL_SUCCESS);
+  for (size_t k = 0; k < p.near.count; k++) {
+    size_t i = N, j = N;
+    double u[3], way[3];
+    if (!periodic_pair(&p, k, &i, &j, u) || !CHECK(i < N && j < N && i != j))
+      continue;
+    vec3_sub(x + 3 * i, x + 3 * j, way);
+    across += fabs(way[0]) > 0.5 || fabs(way[1]) > 0.4;
+    periodic_nearest(period, way);
+    vec3_sub(u, way, way);
+    CHECK_CLOSE(vec3_norm(way), 0, 1e-15);
+    found += vec3_norm(u) <= reach;
+  }
+  CHECK(found == all && across > 5);
+  periodic_pairs_free(&p);
+}
+
 int main(void) {
   gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
   gsl_rng_set(rng, 12);
@@ -804,6 +839,7 @@ int main(void) {
   test_periodic_momentum(rng);
   test_layer();
   test_periodic_images(rng);
+  test_points(rng);
   gsl_rng_free(rng);
   return check_done();
 }
