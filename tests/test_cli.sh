@@ -661,6 +661,14 @@ check '--wall replaces the box, twice' test "$(key wall "$T/a" | wc -l)" = 2
 "$B/settle" --count 1 --time 0.1 >"$T/a"
 check 'the box' test "$(key wall "$T/a" | wc -l)" = 5
 
+# --- the usual method, and that of what it cannot do --------------------------
+for options in '' '--step 1e-3' '--reltol 1e-3' '--pairs all' '--control standard'; do
+  # shellcheck disable=SC2086 # several words
+  run settle --count 1 --time 0 $options --stats "$T/files/stats"
+  check "the method of '$options'" test "$(stat method)" = \
+    "$([[ $options ]] && echo rkc || echo multirate)"
+done
+
 # --- until rest ---------------------------------------------------------------
 succeed '--until-rest' settle --count 30 --base 0.5,0.5 --model basic \
   --time 30 --until-rest --stats "$T/files/stats"

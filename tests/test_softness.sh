@@ -130,6 +130,10 @@ hard "$T/30" "$T/60" --deviation 0.01
 near 'hard: two beds' "$(column union)" "$(of 18)" 1e-12
 near 'hard: their interval' "$(column high)" \
   "$(awk -v u="$(of 18)" 'BEGIN { print u + 1.959964 * sqrt(5) * 0.01 }')" 1e-6
+# by default that of a bed of 200, as one of 19 has it
+hard "$T/30" "$T/60"
+near 'hard: their interval by default' "$(column high)" "$(awk -v u="$(of 18)" \
+  'BEGIN { print u + 1.959964 * sqrt(5) * 0.006 * sqrt(200 / 19) }')" 1e-6
 pearls 600 19 friction=0.5 >"$T/other"
 hard "$T/30" "$T/other"
 check 'hard: other beds' grep -q 'differ in friction' "$T/err"
