@@ -153,6 +153,7 @@ int verb_rest(int argc, char **argv) {
   struct tabulation t;
   struct seen seen = {0};
   tabulation_open(&t, &input, mean, argc, argv, operand);
+  t.table.kernel = dynamics_machine();
   while (tabulation_next(&t))
     print_frame(&t.table, &t.frames, &given, &t.bed, &t.watch, &seen);
   return tabulation_close(&t);

@@ -25,6 +25,12 @@ static void put_names(const struct table *t) {
   printf("%s%s\n", t->file ? "file\t" : "", t->names);
 }
 
+static void put_origin(const struct table *t) {
+  origin_write(stdout, &origin_comment, command_line(), NULL);
+  if (t->kernel)
+    origin_put(stdout, &origin_comment, "kernel", t->kernel);
+}
+
 static void put_gap(const struct table *t) {
   if (t->layout != TABLE_ROWS)
     fputs(t->layout == TABLE_BLOCKS ? "\n\n" : "\n", stdout);
@@ -53,7 +59,7 @@ void table_frame(struct table *t, enum table_layout layout, const char *names) {
   if (t->frames_count)
     put_gap(t);
   else if (t->frames->options.origin)
-    origin_write(stdout, &origin_comment, command_line(), NULL);
+    put_origin(t);
   if (!t->frames_count || layout == TABLE_BLOCKS)
     put_names(t);
   begin(&t->each, true);

@@ -39,6 +39,7 @@ struct table_mean {
 struct table {
   const struct frames *frames;
   const char *names;
+  const char *kernel; /* instruction set that it depends on, NULL: on none */
   enum table_layout layout;
   bool file, mean;
   size_t columns, column; /* how many, the next one */

@@ -143,8 +143,11 @@ void write_raw(FILE *out, const struct write_frame *f,
    Keys of our own it passes over, as ITK and Fiji do. */
 static void put_comment(FILE *out, const struct write_frame *f) {
   static const struct origin_style comment = {"", " = ", "\n", 254};
-  static const struct origin_style key = {"", " = ", "\n", 400};
-  origin_put(out, &comment, "Comment", f->shape->statement);
+  static const struct origin_style key = {"", " = ", "\n", 490};
+  const char *statement = f->shape->statement;
+  origin_put(out, &comment, "Comment", statement);
+  if (strlen(statement) > (size_t)comment.most)
+    origin_put(out, &key, "solid", statement);
   write_origin(out, &key, f);
 }
 

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <gsl/gsl_errno.h>
+#include "dynamics/dynamics.h"
 #include "measure.h"
 #include "program/integration.h"
 #include "program/origin.h"
@@ -63,6 +64,7 @@ static void print_header(const struct option_spec *options,
                          const double reference_error[]) {
   char text[256];
   origin_write(stdout, &origin_comment, command_line(), NULL);
+  origin_put(stdout, &origin_comment, "kernel", dynamics_machine());
   printf("# scene=%s\n# about=%s\n", s->name, s->summary);
   for (const struct option_spec *o = options; o->name; o++)
     if (o->parameter && !o->each) {

@@ -41,6 +41,17 @@ static double earlier(const struct precision_case *c, size_t k) {
   return c->law.vmin / full_rate(c) * (double)k / MEASURE_STARTS;
 }
 
+/* A run is over: adds its errors, of which there may be none yet. */
+static void finish(struct precision_result *r, struct motion *m,
+                   const char *word, const double error[], size_t errors) {
+  if (errors)
+    measure_add(r, m->integrator, dynamics_counts(m->dynamics).evaluations,
+                error, errors);
+  if (word != measure_ok)
+    r->status = word;
+  motion_free(m);
+}
+
 /* Error of the final velocity: 5/7 of the first, and the slip that is left. */
 static int run_velocity(const struct precision_case *c, const void *reference,
                         struct precision_result *r) {
@@ -67,11 +78,7 @@ static int run_velocity(const struct precision_case *c, const void *reference,
       kept[i] = y[3 + i] + 0.4 * spin[i] - v0 * direction[i];
     }
     const double error[] = {hypot(off[0], off[1]), hypot(kept[0], kept[1])};
-    measure_add(r, m->integrator, dynamics_counts(m->dynamics).evaluations,
-                error, 2);
-    if (word != measure_ok)
-      r->status = word;
-    motion_free(m);
+    finish(r, m, word, error, 2);
   }
   measure_mean(r);
   return status;
@@ -112,11 +119,7 @@ static int run_transition(const struct precision_case *c, const void *reference,
     const double *y = integrate_state(m->integrator);
     const double error = fabs(integrate_time(m->integrator) +
                               to_slip(y, NULL, &s) - exact - more);
-    measure_add(r, m->integrator, dynamics_counts(m->dynamics).evaluations,
-                &error, 1);
-    if (word != measure_ok)
-      r->status = word;
-    motion_free(m);
+    finish(r, m, word, &error, 1);
   }
   measure_mean(r);
   return GSL_SUCCESS;
@@ -152,12 +155,7 @@ static int run_slope(const struct precision_case *c, const void *reference,
     const double v = integrate_state(m->integrator)[ROW_V];
     error[steep] = fabs(v - (steep ? c->law.vmin + rate * c->time
                                    : closed_creep(c->time, c->law.vmin, rate)));
-    if (steep)
-      measure_add(r, m->integrator, dynamics_counts(m->dynamics).evaluations,
-                  error, 2);
-    if (word != measure_ok)
-      r->status = word;
-    motion_free(m);
+    finish(r, m, word, error, steep ? 2 : 0); /* both with the second */
   }
   measure_mean(r);
   return GSL_SUCCESS;

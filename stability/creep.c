@@ -113,10 +113,10 @@ int verb_creep(int argc, char **argv) {
       {0}};
   /* clang-format on */
   const struct program program = {
-      .name = "stability creep",
+      .name = "stability",
       .summary = "Creep of a sphere on slopes around the friction angle beside "
                  "the closed form,\nspeeds as shares of vmin.",
-      .usage = "[OPTION...]",
+      .usage = "creep [OPTION...]",
       .example = "stability creep --method rkc",
       .options = options};
   verb_begin(&program, argc, argv);

@@ -116,10 +116,10 @@ int verb_cut(int argc, char **argv) {
       {0}};
   /* clang-format on */
   const struct program program = {
-      .name = "stability cut",
+      .name = "stability",
       .summary = "A contact that ends at lmax: errors of the speed (share) and "
                  "of the gap (in 1/kappa,\nagainst no cut) by tolerance.",
-      .usage = "[OPTION...]",
+      .usage = "cut [OPTION...]",
       .example = "stability cut --method merson --taper c1",
       .options = options};
   verb_begin(&program, argc, argv);

@@ -161,11 +161,11 @@ int verb_drift(int argc, char **argv) {
       {0}};
   /* clang-format on */
   const struct program program = {
-      .name = "stability drift",
+      .name = "stability",
       .summary = "Energy error of an elastic scene over time, as share of the "
                  "energy: at the row's\ntime (the one sphere: at its apex) and "
                  "the largest since the row before.",
-      .usage = "[OPTION...]",
+      .usage = "drift [OPTION...]",
       .example = "stability drift --method dopri5 --cost 3000",
       .options = options};
   verb_begin(&program, argc, argv);

@@ -201,11 +201,11 @@ int verb_limits(int argc, char **argv) {
       {0}};
   /* clang-format on */
   const struct program program = {
-      .name = "stability limits",
+      .name = "stability",
       .summary = "The largest stable h |lambda| of each method on the slip of "
                  "a pressed sphere\n(real axis) and on a contact's undamped "
                  "oscillation (imaginary axis).",
-      .usage = "[OPTION...]",
+      .usage = "limits [OPTION...]",
       .example = "stability limits > limits.tsv",
       .options = options};
   verb_begin(&program, argc, argv);

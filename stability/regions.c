@@ -18,11 +18,11 @@ int verb_regions(int argc, char **argv) {
       {0}};
   /* clang-format on */
   const struct program program = {
-      .name = "stability regions",
+      .name = "stability",
       .summary =
           "|R(z)| of each method on a grid, one block per method: re, im, "
           "modulus.",
-      .usage = "[OPTION...]",
+      .usage = "regions [OPTION...]",
       .example = "stability regions > regions.tsv",
       .options = options};
   verb_begin(&program, argc, argv);

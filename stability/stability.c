@@ -2,6 +2,7 @@
 /* stability: where methods fail. The first argument names a study. */
 #include <stdio.h>
 #include "verbs.h"
+#include "dynamics/dynamics.h"
 #include "program/origin.h"
 #include "program/verbs.h"
 
@@ -25,6 +26,7 @@ void verb_begin(const struct program *p, int argc, char **argv) {
   if (operand < argc)
     die(EXIT_USAGE, "'%s': expected options only", argv[operand]);
   origin_write(stdout, &origin_comment, command_line(), NULL);
+  origin_put(stdout, &origin_comment, "kernel", dynamics_machine());
   printf("# verb=%s\n", argv[0]);
   for (const struct option_spec *o = p->options; o->name; o++) {
     option_text(o, text, sizeof text);

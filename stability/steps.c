@@ -84,11 +84,11 @@ int verb_steps(int argc, char **argv) {
       {0}};
   /* clang-format on */
   const struct program program = {
-      .name = "stability steps",
+      .name = "stability",
       .summary =
           "Where each sphere was at the end of a span of time, and in how "
           "many steps of its own it went through it.",
-      .usage = "[OPTION...]",
+      .usage = "steps [OPTION...]",
       .example = "stability steps > steps.tsv",
       .options = options};
   verb_begin(&program, argc, argv);

@@ -111,10 +111,10 @@ int verb_tunnel(int argc, char **argv) {
       {0}};
   /* clang-format on */
   const struct program program = {
-      .name = "stability tunnel",
+      .name = "stability",
       .summary = "Shots at a sphere and at a wall out of free flight: how many "
                  "bounce, are missed,\ncome out with a wrong speed, or fail.",
-      .usage = "[OPTION...]",
+      .usage = "tunnel [OPTION...]",
       .example = "stability tunnel --method dopri5 --travel 1",
       .options = options};
   verb_begin(&program, argc, argv);

@@ -33,7 +33,9 @@ while read -r format; do
   size=$(wc -c <"$T/small")
   check "$format: with as much as it takes" bash -c "ulimit -f $((size / 1024 + 1))
     '$B/analyze' export --quiet --format $format --output '$T/same' '$T/bed'"
-  check "$format: the same file" cmp -s "$T/small" "$T/same"
+  # but for the name of the output in the command line
+  check "$format: the same file" cmp -s <(grep -av '^<?origin' "$T/small") \
+    <(grep -av '^<?origin' "$T/same")
   refused 1 'and ulimit -f has room for 1.02 kB' bash -c "ulimit -f 1
     '$B/analyze' export --format $format --output '$T/no' '$T/bed'"
   check "$format: no half of it" [ ! -e "$T/no" ]

@@ -25,6 +25,9 @@ has() { # NAME FILE TEXT...: each of them somewhere in the file
 }
 table() { # FILE COMMAND: lines of comment at its head, then the names of columns
   has "$2" "$1" "# version=$version" "# command=$2" '# build='
+  case $2 in
+    *rest* | precision* | stability*) has "$2" "$1" '# kernel=' ;;
+  esac
   check "$2: the first line is the program" test "$(head -n 1 "$1")" = \
     "# program=${2%% *}"
   check "$2: names behind them" awk '/^#/ {next} {exit !/^[a-z]/}' "$1"
@@ -49,6 +52,12 @@ bounce --quiet --rebound --stats stats >out || exit 1
 table out 'bounce --rebound --stats stats'
 has 'bounce --stats' stats $'version\t'"$version" \
   $'command\tbounce --rebound --stats stats'
+
+for study in 'precision rolling --method rkc --rung 1e-3 --timed 0' 'stability cut'; do
+  $study >out 2>err
+  check "$study: exit status" test $? = 0
+  table out "$study"
+done
 
 # --- tables of analyze ----------------------------------------------------------
 named= # verbs that were tried
@@ -116,8 +125,11 @@ for format in $formats; do
     mhd)
       export_ $format --cells 4 --output m.mhd
       says m.mhd 'analyze export --format mhd --cells 4 --output m.mhd bed.tsv'
-      check 'mhd: lines that MetaIO can hold' awk 'length > 410 ||
-        /^Comment/ && length > 264 {exit 1}' m.mhd
+      export_ $format --cells 4 --output w.mhd --walls --gap 0.01 --bridge 0.01
+      check 'mhd: lines that MetaIO can hold' awk 'length > 500 ||
+        /^Comment/ && length > 264 {exit 1}' w.mhd
+      check 'mhd: what it cuts is whole below' grep -q \
+        '^solid = .*change.*bridges: .*+- ' w.mhd
       ;;
     openfoam)
       export_ $format --output case
