@@ -28,7 +28,7 @@ declare -A makes=(
     precision-orders.md:14'
   [impacts]='impacts.svg'
   [settling]='precision-settling.svg precision-settling.md:18'
-  [seeds]='precision-seeds.md:3'
+  [seeds]='precision-seeds.md:3' [tolerance]='precision-tolerance.md:16'
   [trajectories]='precision-trajectory-8-position-evaluations.svg
     precision-trajectory-8-position-cpu_seconds.svg
     precision-trajectory-8-basic-position-evaluations.svg
@@ -48,7 +48,7 @@ declare -A makes=(
 # Targets that make no figure; bench-clean comes last.
 others=' all check clients fuzz deps demo install uninstall clean help readme'
 others+=' docs-figures bench-clean'
-others+=' lammps torture threads load valgrind mutants fuzz-programs sanitize tidy check-long check-quick deps-developer man '
+others+=' lammps torture threads load million valgrind mutants fuzz-programs sanitize tidy check-long check-quick deps-developer man '
 
 targets=()
 while read -r target _; do
