@@ -28,7 +28,7 @@ fail_memory() {
     case $status in
       0) cmp -s "$T/want" "$T/got" ;;
       1) grep -qiE 'out of memory|cannot allocate memory' "$T/err" ;;
-      134) grep -qi '^OMP: Error.*memory' "$T/err" ;; # clang's threads end so
+      134) grep -qiE '^OMP: Error.*(memory|SHM)' "$T/err" ;; # clang's threads end so
       *) false ;;
     esac || {
       wrong=$((wrong + 1))

@@ -198,8 +198,12 @@ if ! sanitized 'memory that fails'; then
         break
       status=$?
       short=$((short + 1))
-      [[ $status == 1 ]] && grep -q '^analyze: .*out of memory' "$T/err" &&
-        ! grep -q nan "$T/out" || wrong="$wrong $limit: $status $(cat "$T/err")"
+      if [[ $status == 134 ]]; then # clang's threads end so
+        grep -qiE '^OMP: Error.*(memory|SHM)' "$T/err"
+      else
+        [[ $status == 1 ]] && grep -q '^analyze: .*out of memory' "$T/err" &&
+          ! grep -q nan "$T/out"
+      fi || wrong="$wrong $limit: $status $(cat "$T/err")"
     done
     check "$verb: wrong for want of memory: $wrong" test -z "$wrong"
     check "$verb: out of memory at times" test $short -gt 10
