@@ -377,7 +377,8 @@ static void note_origin(const struct run *r, struct bed_header *h) {
    on. */
 static void begin_log(struct run *r) {
   FILE *log = r->log.stream;
-  for (size_t k = 0; k < r->header->count && r->set->origin; k++) {
+  const size_t keys = r->set->origin ? r->header->count : 0;
+  for (size_t k = 0; k < keys; k++) {
     const struct bed_key *key = &r->header->at[k];
     if (strcmp(key->name, "format") && strcmp(key->name, "t"))
       origin_put(log, &origin_comment, key->name, key->value);

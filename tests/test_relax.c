@@ -105,12 +105,19 @@ static void test_pairs(void) {
   }
 }
 
+/* Two spheres in a box of 1 m. */
+static struct bed two_in_box(struct scene *s, const double x[6]) {
+  struct bed b = new_bed(2);
+  *s = scene_default();
+  CHECK(scene_add_box(s, 1, 1) == GSL_SUCCESS);
+  memcpy(b.x, x, 6 * sizeof *b.x);
+  return b;
+}
+
 /* In a corner of the box, and another one in the open that stays. */
 static void test_walls(void) {
-  struct scene s = scene_default();
-  struct bed b = new_bed(2);
-  CHECK(scene_add_box(&s, 1, 1) == GSL_SUCCESS);
-  memcpy(b.x, (double[]){0.01, 0.99, 0.001, 0.5, 0.5, 0.09}, 6 * sizeof *b.x);
+  struct scene s;
+  struct bed b = two_in_box(&s, (double[]){0.01, 0.99, 0.001, 0.5, 0.5, 0.09});
   const struct relax_report r = push(&s, &b);
   CHECK(r.walls == 3 && r.pairs == 0 && r.moved == 1 && r.sphere == 0);
   CHECK_CLOSE(r.depth, 0.099, 1e-15);
@@ -126,10 +133,8 @@ static void test_walls(void) {
 
 /* As many pairs as walls: a sphere half in the floor, and one half in it. */
 static void test_pair_on_wall(void) {
-  struct scene s = scene_default();
-  struct bed b = new_bed(2);
-  CHECK(scene_add_box(&s, 1, 1) == GSL_SUCCESS);
-  memcpy(b.x, (double[]){0.5, 0.5, 0.05, 0.5, 0.5, 0.2}, 6 * sizeof *b.x);
+  struct scene s;
+  struct bed b = two_in_box(&s, (double[]){0.5, 0.5, 0.05, 0.5, 0.5, 0.2});
   const struct relax_report r = push(&s, &b);
   CHECK(r.walls == 1 && r.pairs == 1 && r.moved == 2 && r.passes > 1);
   scene_free(&s);

@@ -35,9 +35,8 @@ void origin_write(FILE *out, const struct origin_style *s, const char *command,
 }
 
 void origin_write_xml(FILE *out, const char *bed) {
-  static const struct origin_style attribute = {" ", "=\"", "\"", 0};
   fputs("<?origin", out);
-  origin_write(out, &attribute, command_line(), bed);
+  origin_write(out, &origin_attribute, command_line(), bed);
   fputs("?>\n", out);
 }
 
