@@ -435,18 +435,20 @@ static void test_travel(void) {
   CHECK(travel_time(0, 0, 1) == GSL_POSINF);
 }
 
-static size_t warnings_of(const struct run_watch *w) {
-  char line[100];
-  size_t count = SIZE_MAX;
+/* A line of its statistics; NaN where there is none. */
+static double stat_of(const struct run_watch *w, const char *key) {
+  char line[100], name[50];
+  double value = GSL_NAN, got;
   FILE *f = tmpfile();
   if (!f)
     abort();
   run_watch_stats(w, f, 0);
   rewind(f);
   while (fgets(line, sizeof line, f))
-    sscanf(line, "warnings\t%zu", &count);
+    if (sscanf(line, "%49s %lf", name, &got) == 2 && !strcmp(name, key))
+      value = got;
   fclose(f);
-  return count;
+  return value;
 }
 
 /* Energy from nowhere, or into it where none can be lost: warned of beyond 1 %
@@ -479,16 +481,72 @@ static void test_energy(void) {
     CHECK(run_watch_energy(w, 1, 0, 0) == GSL_SUCCESS);
     CHECK(run_watch_energy(w, 0, 1, 0) == GSL_SUCCESS);
     run_watch_tell_energy(w);
-    CHECK(warnings_of(w) == 0);
+    CHECK(stat_of(w, "warnings") == 0);
     for (int twice = 0; twice < 2; twice++) {
       CHECK(run_watch_energy(w, 0, cases[k].now, 0) == GSL_SUCCESS);
       run_watch_tell_energy(w);
-      CHECK(warnings_of(w) == cases[k].warnings);
+      CHECK(stat_of(w, "warnings") == (double)cases[k].warnings);
     }
     const double gain = fmax(0, cases[k].now - 1) / cases[k].now;
     CHECK_CLOSE(run_watch_energy_share(w), gain, 4 * DBL_EPSILON);
     CHECK(run_watch_energy(w, GSL_NAN, 0, 0) == GSL_ERANGE);
     run_watch_free(w);
+  }
+  motion_free(m);
+  bed_free(&b);
+  scene_free(&scene);
+}
+
+/* A watch that takes over goes on with the energies of the first: what that one
+   had seen as the least is what is gained from, what it had warned of is not
+   said again, and its statistics are those of one watch all along. */
+static void test_energy_goes_on(void) {
+  struct scene scene = scene_default();
+  struct bed b;
+  CHECK(bed_alloc(&b, 1) == GSL_SUCCESS);
+  b.r[0] = 0.1;
+  struct integrate_options o = {.method = "rkc", .hinit = 1e-3};
+  integrate_defaults(&o);
+  struct motion *m = NULL;
+  CHECK(motion_alloc(&m, &scene, &b, &o,
+                     &(struct dynamics_options){.threads = 1},
+                     0) == GSL_SUCCESS);
+  const struct run_watch_options set = {.integrate = &o,
+                                        .integrator = m->integrator,
+                                        .whose = "the test's",
+                                        .quiet = true};
+  /* 1 J of gravity, of which 0.5 J are left as motion; 1.5 J later */
+  for (int told = 0; told < 2; told++) {
+    struct run_watch *w = NULL, *next = NULL;
+    CHECK(run_watch_alloc(&w, &set) == GSL_SUCCESS);
+    CHECK(run_watch_alloc(&next, &set) == GSL_SUCCESS);
+    CHECK(run_watch_energy(w, 1, 0, 0) == GSL_SUCCESS);
+    CHECK(run_watch_energy(w, 0, 0.5, 0) == GSL_SUCCESS);
+    if (told) {
+      CHECK(run_watch_energy(w, 0, 2, 0) == GSL_SUCCESS);
+      run_watch_tell_energy(w);
+      CHECK(stat_of(w, "warnings") == 1);
+    }
+    FILE *f = tmpfile();
+    if (!f)
+      abort();
+    struct store out = store_saving(f);
+    run_watch_store(w, &out);
+    rewind(f);
+    struct store in = store_loading(f);
+    run_watch_store(next, &in);
+    CHECK(store_status(&out) == GSL_SUCCESS &&
+          store_status(&in) == GSL_SUCCESS && fgetc(f) == EOF);
+    fclose(f);
+    CHECK(run_watch_energy(next, 0, 1.5, 0) == GSL_SUCCESS);
+    run_watch_tell_energy(next);
+    CHECK_CLOSE(run_watch_energy_share(next), 1 / 1.5, 4 * DBL_EPSILON);
+    CHECK(stat_of(next, "warnings") == 1);
+    CHECK(stat_of(next, "energy_start") == 1);
+    CHECK(stat_of(next, "energy_end") == 1.5);
+    CHECK(stat_of(next, "energy_gain") == (told ? 1.5 : 1));
+    run_watch_free(w);
+    run_watch_free(next);
   }
   motion_free(m);
   bed_free(&b);
@@ -510,6 +568,7 @@ int main(void) {
   test_bits("rk8pd", SCENE_BASIC);
   test_travel();
   test_energy();
+  test_energy_goes_on();
   gsl_rng_free(rng);
   return check_done();
 }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The steps of multirate.c: how long they are, which spheres take theirs again
    in shorter ones, and which thread does what. Not in the paper. Internal to
-   multirate.c. Tested in tests/test_multirate.c. */
+   multirate.c. Tested in tests/test_multirate.c and
+   tests/test_lanes.c. */
 #ifndef LANES_H
 #define LANES_H
 

@@ -3,7 +3,7 @@
    steps, with their partners as ghosts that move as is known already. A step is
    one of Runge-Kutta-Chebyshev (steppers/chebyshev.h), with an error for each
    sphere. Not in the paper. Internal to multirate.c. Tested in
-   tests/test_multirate.c. */
+   tests/test_multirate.c and tests/test_lanes.c. */
 #ifndef LEVEL_H
 #define LEVEL_H
 
