@@ -547,6 +547,18 @@ static void test_periodic_pairs(gsl_rng *rng) {
   }
 }
 
+/* As many images as there may be, and one period more along an axis. */
+static void test_most_images(void) {
+  struct periodic_images m = {0};
+  const double x[3] = {0}, r = 0.25, period[3] = {1, 1, 0};
+  double box[6] = {0, 1e4 - 1, 0, 1e3 - 1, 0, 1};
+  CHECK(periodic_images_in_box(&m, 1, x, &r, period, box) == GSL_SUCCESS);
+  CHECK(m.count == 10000000);
+  box[3]++;
+  CHECK(periodic_images_in_box(&m, 1, x, &r, period, box) == GSL_ERANGE);
+  periodic_images_free(&m);
+}
+
 /* Images by trying all moves: those that reach into a box, and whether one of
    them is in it. */
 static void test_periodic_images(gsl_rng *rng) {
@@ -599,6 +611,7 @@ static void test_periodic_images(gsl_rng *rng) {
   const double box[6] = {0, 1e4, 0, 1e4, 0, 1};
   CHECK(periodic_images_in_box(&m, 1, x, &r, period, box) == GSL_ERANGE);
   periodic_images_free(&m);
+  test_most_images();
 }
 
 static struct world periodic_world(gsl_rng *rng, enum scene_model model,

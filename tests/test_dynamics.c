@@ -500,6 +500,41 @@ static void test_last_contact(void) {
   sample_free(&s);
 }
 
+/* A row of spheres that touch, and the first pair of the list reaches further
+   than all others: from its first row to the last. The forces on all but those
+   at the ends cancel, and no row's sum is taken for another's. */
+static void test_span(void) {
+  enum { N = 300 };
+  struct sample s = {.scene = scene_default()};
+  s.scene.model = SCENE_BASIC;
+  s.scene.law.restitution = 1;
+  memset(s.scene.gravity, 0, sizeof s.scene.gravity);
+  size_t order[N];
+  CHECK(bed_alloc(&s.bed, N) == GSL_SUCCESS);
+  for (size_t i = 0; i < N; i++) {
+    s.bed.r[i] = 0.125;
+    s.bed.m[i] = 1;
+    s.bed.x[3 * i] = i == N - 1 ? 0.25 : 0.25 * (double)i;
+    s.bed.x[3 * i + 1] = i % (N - 1) ? 0 : 2;
+    order[i] = i;
+  }
+  struct dynamics *d = new_dynamics(
+      &s, &(struct dynamics_options){.threads = 1, .order = order});
+  double v[3 * N], a[3 * N], alpha[3 * N];
+  CHECK(rates(d, &s.bed, v, a, alpha) == GSL_SUCCESS);
+  const double force = s.scene.law.f0;
+  for (size_t i = 0; i < N; i++) {
+    const bool left = i < 2, right = i >= N - 2;
+    CHECK_CLOSE(a[3 * i],
+                left    ? -force
+                : right ? force
+                        : 0,
+                4 * DBL_EPSILON * force);
+  }
+  dynamics_free(d);
+  sample_free(&s);
+}
+
 /* A skin as wide as lets rebuilding and idle pairs cost the same, whatever the
    speed. All move by d in each evaluation: a skin s lasts for s/(2 d) of them,
    of which idle pairs take 3 s/(2 r + lmax + s), and a list costs four. */
@@ -1347,6 +1382,7 @@ static void test_kernel(gsl_rng *rng, unsigned long kernel) {
   test_touching(rng);
   test_threads(rng);
   test_stage(rng);
+  test_span();
   test_skin(rng);
   test_last_contact();
   for (int m = 0; m < 3; m++) {
