@@ -44,6 +44,7 @@ declare -A makes=(
   [bench]='bench.svg bench.md:24 scaling.svg scaling.md:2'
   [features]='features.md:9'
   [bench-peers]='peers.md:2' [growth]='growth.svg growth.md:6'
+  [growth-rest]='growth-rest.svg growth-rest.md:4'
 )
 # Targets that make no figure; bench-clean comes last.
 others=' all check clients fuzz deps demo install uninstall clean help readme'

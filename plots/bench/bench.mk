@@ -69,13 +69,14 @@ $(F)/peers.md: $(BENCH)/peers.tsv
 # The same start in each code and by our methods, at the same depth: a row for
 # each number of spheres, with the width of its base (m). Codes that are not installed have
 # no rows.
-GROWTH_COUNTS := $(if $(QUICK),20 40,200 2000 6000 20000)
+GROWTH_COUNTS := $(if $(QUICK),20 40,200 2000 6000 20000 100000)
 GROWTH_20 := 0.5
 GROWTH_40 := 0.75
 GROWTH_200 := 1
 GROWTH_2000 := 3.16
 GROWTH_6000 := 5.48
 GROWTH_20000 := 10
+GROWTH_100000 := 22.36
 GROWTH_SEEDS_200 := 1 2 3
 GROWTH_ROWS := multirate rkc verlet lammps-1e4 lammps-1e5 liggghts-1e4 \
   liggghts-1e5
@@ -86,31 +87,44 @@ GROWTH_lammps-1e4 := lammps hooke 0.2 1e4
 GROWTH_lammps-1e5 := lammps hooke 0.2 1e5
 GROWTH_liggghts-1e4 := liggghts hooke 0.2 1e4
 GROWTH_liggghts-1e5 := liggghts hooke 0.2 1e5
-# $(call growth_run,COUNT,ROW)
+GROWTH_END_growth := $(if $(QUICK),TIME=0.3)
+GROWTH_END_rest := REST=1
+# $(call growth_run,COUNT,ROW,END): to 8 s (growth), or to rest (rest)
 define growth_run
-$(BENCH)/growth/$(1)-$(2).tsv: | $(B)/settle $(B)/analyze
+$(BENCH)/$(3)/$(1)-$(2).tsv: | $(B)/settle $(B)/analyze
 	@mkdir -p $$(@D)
 	B=$(B) COUNT=$(1) BASE=$(GROWTH_$(1)) SEEDS='$(or $(GROWTH_SEEDS_$(1)),1)' \
-	  $(if $(QUICK),TIME=0.3) ROWS='$(GROWTH_$(2))' plots/bench/peers/peers.sh > $$@
+	  $(GROWTH_END_$(3)) ROWS='$(GROWTH_$(2))' plots/bench/peers/peers.sh \
+	  > $$@.partial
+	mv $$@.partial $$@
 endef
-# Not those that would take minutes each: both grow faster than the others.
-GROWTH_LONG := $(if $(QUICK),,2000-verlet 6000-rkc 6000-verlet \
-  20000-rkc 20000-verlet)
+# Not those that would take an hour: these grow faster than the others.
+GROWTH_LONG := $(if $(QUICK),,6000-verlet 20000-rkc 20000-verlet 100000-rkc \
+  100000-verlet)
 GROWTH_NAMES := $(filter-out $(GROWTH_LONG),\
   $(foreach n,$(GROWTH_COUNTS),$(GROWTH_ROWS:%=$(n)-%)))
-$(foreach n,$(GROWTH_COUNTS),$(foreach r,$(GROWTH_ROWS),\
-  $(eval $(call growth_run,$(n),$(r)))))
+# Verlet's method would take as long again as to 8 s, four times.
+REST_NAMES := $(filter-out %-verlet 6000-rkc,$(GROWTH_NAMES))
+$(foreach n,$(GROWTH_COUNTS),$(foreach r,$(GROWTH_ROWS),$(foreach e,growth rest,\
+  $(eval $(call growth_run,$(n),$(r),$(e))))))
 
-growth: $(F)/growth.md $(F)/growth.svg ## CPU time against the number of spheres, beside LAMMPS and LIGGGHTS
+growth: $(F)/growth.md $(F)/growth.svg ## CPU time to 8 s against the number of spheres, beside LAMMPS and LIGGGHTS (hours)
 	@cat $(F)/growth.md
-$(BENCH)/growth.tsv: plots/bench/growth.awk plots/bench/bench.mk \
-  $(GROWTH_NAMES:%=$(BENCH)/growth/%.tsv)
+growth-rest: $(F)/growth-rest.md $(F)/growth-rest.svg ## the same until the bed is at rest (hours)
+	@cat $(F)/growth-rest.md
+GROWTH_TABLE := plots/bench/growth.awk plots/bench/bench.mk
+$(BENCH)/growth.tsv: $(GROWTH_TABLE) $(GROWTH_NAMES:%=$(BENCH)/growth/%.tsv)
+	awk -f $< $(filter %.tsv,$^) > $@
+$(BENCH)/growth-rest.tsv: $(GROWTH_TABLE) $(REST_NAMES:%=$(BENCH)/rest/%.tsv)
 	awk -f $< $(filter %.tsv,$^) > $@
 $(F)/growth.md: $(BENCH)/growth.tsv
+$(F)/growth-rest.md: $(BENCH)/growth-rest.tsv
 $(F)/growth.svg: plots/bench/growth.gp plots/style.gp $(BENCH)/growth.tsv
+	$(draw)
+$(F)/growth-rest.svg: plots/bench/growth.gp plots/style.gp $(BENCH)/growth-rest.tsv
 	$(draw)
 
 bench-clean: ## remove the data of the benchmarks
 	rm -rf $(BENCH)
 
-.PHONY: bench bench-peers features growth bench-clean
+.PHONY: bench bench-peers features growth growth-rest bench-clean

@@ -8,6 +8,8 @@
 # B      where the programs settle and analyze are
 # SEEDS  seeds of the start
 # TIME   end of the run, s
+# REST=1 until the bed is at rest, by the criterion of settle --until-rest, whose
+#        two conditions the other codes look at once a second; TIME at most
 # STEP   factor on the steps of the other codes, to see what they hide
 # COUNT  spheres
 # BASE   width of the box (m)
@@ -24,7 +26,8 @@ set -eu -o pipefail
 B=${B:-build}
 SEEDS=${SEEDS:-1 2 3}
 STEP=${STEP:-1}
-T=${TIME:-8}
+REST=${REST:-}
+T=${TIME:-$([ -n "$REST" ] && echo 300 || echo 8)}
 COUNT=${COUNT:-200}
 BASE=${BASE:-1}
 KEEP=${KEEP:-}
@@ -72,7 +75,7 @@ to_data() {
 
 # The last frame of a dump as a bed file.
 to_bed() {
-  awk -v program="$1" -v t="$T" -v width="$BASE" '
+  awk -v program="$1" -v t="$2" -v width="$BASE" '
     BEGIN {
       OFS = "\t"
       print "# format=bed-1"
@@ -98,7 +101,7 @@ to_bed() {
 }
 
 # Everything that depends on contact, code, k and friction coefficient: writes
-# the law and prints "dt steps".
+# the law and prints "dt steps times": so often these steps, unless at rest.
 #
 # Hooke: k for pairs and walls alike; the damping that gives e for an effective
 # mass of 1/2 (pair) and 1 (wall), tangential spring 2/7 k and half the damping
@@ -122,7 +125,7 @@ to_bed() {
 # case, pair and wall.
 write_law() {
   awk -v code="$1" -v contact="$2" -v mu="$3" -v k="$4" -v factor="$STEP" \
-    -v T="$T" -v law="$tmp/law" '
+    -v T="$T" -v rest="$REST" -v law="$tmp/law" '
     function ceil(x) { return int(x) + (int(x) < x) }
     BEGIN {
       pi = atan2(0, -1); e = 0.4; r = 0.1; m = 1; nu = 0.3; v = 9
@@ -189,15 +192,20 @@ write_law() {
         print "variable wall string \"" style "\"" > law
         print "variable flags string \"" flags "\"" > law
       }
-      steps = ceil(T / (dt * factor))
-      printf "%.9g %d\n", T / steps, steps
+      if (rest) { # a second at a time
+        steps = ceil(1 / (dt * factor))
+        printf "%.9g %d %d\n", 1 / steps, steps, ceil(T)
+      } else {
+        steps = ceil(T / (dt * factor))
+        printf "%.9g %d 1\n", T / steps, steps
+      }
     }'
 }
 
 # One run's CPU seconds (user and system, all of the process), sum, union and
 # largest speed, appended to $tmp/runs. Output of the code goes to $tmp/output.
 run_peer() {
-  local code=$1 program=$2 seed=$3 dt=$4 steps=$5
+  local code=$1 program=$2 seed=$3 dt=$4 steps=$5 times=$6
   local types=1
   [ "$code" = lammps ] || types=2
   "$bin/settle" "${start[@]}" --seed "$seed" --time 0 --quiet | to_data $types > "$tmp/start"
@@ -208,12 +216,18 @@ run_peer() {
     TIMEFORMAT='%U %S'
     { time "$program" -in "$here/in.$code" -log none -screen "$tmp/output" \
       -var start "$tmp/start" -var law "$tmp/law" -var end "$tmp/end" \
-      -var dt "$dt" -var steps "$steps" -var width "$BASE" > /dev/null 2> "$tmp/errors"
+      -var dt "$dt" -var steps "$steps" -var times "$times" -var width "$BASE" \
+      > /dev/null 2> "$tmp/errors"
     } 2> "$tmp/cpu"
   ) || [ ! -s "$tmp/end" ]; then
     return 1
   fi
-  to_bed "$code" < "$tmp/end" > "$tmp/bed"
+  taken=$(awk '/^ITEM: TIMESTEP/ { getline step } END { print step }' "$tmp/end")
+  end=$(awk -v dt="$dt" -v steps="$taken" 'BEGIN { printf "%.6g", dt * steps }')
+  if [ -n "$REST" ] && [ "$taken" -eq $((steps * times)) ]; then
+    echo "peers.sh: $code not at rest after $end s" >&2
+  fi
+  to_bed "$code" "$end" < "$tmp/end" > "$tmp/bed"
 }
 
 # The bed in $tmp/bed of a seed, checked: no sphere is lost, none outside the
@@ -241,15 +255,16 @@ measure() {
     return 1
   fi
   awk -v cpu="$cpu" -v speed="$speed" \
-    'NR == 2 { print cpu, $2, $3, speed }' "$tmp/fraction" >> "$tmp/runs"
+    'NR == 2 { print cpu, $2, $3, speed, $1 }' "$tmp/fraction" >> "$tmp/runs"
 }
 
 # A row from $tmp/runs: means and standard errors over the seeds, the largest
-# speed of all; and the contact evaluations of the last seed, where known.
+# speed of all; and the contact evaluations of the last seed, where known. With
+# REST the mean end too.
 row() {
-  awk -v OFS='\t' -v head="$1" -v contacts="${2:--}" '
+  awk -v OFS='\t' -v head="$1" -v contacts="${2:--}" -v rest="$REST" '
     {
-      cpu += $1; sum += $2; uni += $3; uni2[NR] = $3
+      cpu += $1; sum += $2; uni += $3; uni2[NR] = $3; end += $5
       if ($4 > speed) speed = $4
     }
     END {
@@ -258,7 +273,8 @@ row() {
       error = NR > 1 ? sprintf("%.4f", sqrt(s / (NR - 1) / NR)) : "-"
       gsub(/ /, "\t", head)
       print head, NR, sprintf("%.2f", cpu / NR), sprintf("%.4f", sum / NR), \
-        sprintf("%.4f", mean), error, sprintf("%.1e", speed), contacts
+        sprintf("%.4f", mean), error, sprintf("%.1e", speed), contacts \
+        (rest ? OFS sprintf("%.1f", end / NR) : "")
     }' "$tmp/runs"
 }
 
@@ -274,16 +290,17 @@ peer_row() {
     return
   fi
   write_law "$code" "$contact" "$mu" "$k" > "$tmp/steps"
-  read -r dt steps < "$tmp/steps"
+  read -r dt steps times < "$tmp/steps"
   for seed in $SEEDS; do
-    if ! run_peer "$code" "$program" "$seed" "$dt" "$steps" || ! measure "$seed"; then
+    if ! run_peer "$code" "$program" "$seed" "$dt" "$steps" "$times" ||
+      ! measure "$seed"; then
       echo "peers.sh: $* seed $seed failed:" >&2
       cat "$tmp/errors" "$tmp/output" 2> /dev/null | grep -a ERROR >&2 || true
       failed=1
       return
     fi
   done
-  row "$code $contact $mu $k $(printf '%.3g' "$dt") $steps"
+  row "$code $contact $mu $k $(printf '%.3g' "$dt") $taken"
 }
 
 # A row of settle: MODEL FRICTION - OPTION...; its steps are those of the last
@@ -291,6 +308,7 @@ peer_row() {
 settle_row() {
   local model=$1 mu=$2 method steps contacts
   shift 3
+  [ -z "$REST" ] || set -- "$@" --until-rest
   for seed in $SEEDS; do
     TIMEFORMAT='%U %S'
     { time "$bin/settle" "${start[@]}" --model "$model" --seed "$seed" \
@@ -310,7 +328,8 @@ start=(--count "$COUNT" --base "$BASE,$BASE")
 missing=
 printf '%s\t' code contact friction 'k (N/m)' 'step (s)' steps seeds \
   'CPU (s)' sum union 'standard error'
-printf '%s\t%s\n' 'largest speed (m/s)' 'contact evaluations'
+printf '%s\t%s%s\n' 'largest speed (m/s)' 'contact evaluations' \
+  "${REST:+$'\t'end (s)}"
 number=0
 while read -r code what; do
   : > "$tmp/runs"
