@@ -40,6 +40,74 @@ check 'geo: boxes of spheres' awk '
   END {exit bad || n != 2}' "$T/geo"
 check 'geo: no sphere is cut' grep -q 'walls and faces cut no sphere' "$T/said"
 
+check 'geo: the volume of both' grep -q ': 2 spheres, solid fraction 0\.[0-9]* of' \
+  "$T/said"
+check 'geo: both are cut out' grep -q '^pore() = .*Volume{2:3}' "$T/geo"
+timeout 60 "$B/analyze" export --format geo --box 2,3,2,3,2,3 "$T/two" >"$T/geo" \
+  2>"$T/said"
+check 'geo: a box without spheres is all pore' grep -qx 'pore() = {inside()};' \
+  "$T/geo"
+{
+  sed '/^x/q' "$T/two"
+  printf '.375\t.375\t.5\t.125\n.375\t.625\t.5\t.125\n# status=ok\n'
+} >"$T/touch"
+hand geo "$T/touch" --walls --bridge 0.0625 >"$T/geo"
+check 'geo: the box of a bridge, from centre to centre' awk '
+  /^part\(\)/ {
+    gsub(/^[^{]*[{]|[}].*/, ""); split($0, c, /, */)
+    split("0.3125 0.3125 0.4375 0.4375 0.6875 0.5625", want, " ")
+    for (k = 1; k <= 6; k++) {
+      d[k] = c[k] - want[k] - (k < 4 ? -1.25e-4 : 1.25e-4)
+      off += d[k] * d[k] # of the last one, the bridge
+    }
+    last = off; off = 0; n++
+  }
+  END {exit !(n == 3 && last < 1e-20)}' "$T/geo"
+
+# --- STL: what its head says, and copies across periodic sides
+{
+  printf '# format=bed-1\n# t=0\n# base=1,1\n# periodic=xy\nx\ty\tz\tr\n'
+  printf '.05\t.5\t.5\t.1\n# status=ok\n'
+} >"$T/across"
+hand stl "$T/across" --facets 20 >"$T/stl"
+check 'stl: the sphere and its copy' test "$(wc -c <"$T/stl")" = \
+  $((84 + 2 * 20 * 50))
+check 'stl: its head' grep -aq '20 facets each, 0\.[0-9]* of a ball' "$T/stl"
+
+# --- the solver of freezing: twice as high as it is wide, and the widest profile
+# that changes the fraction by at most 0.01
+awk 'BEGIN {
+  print "# format=bed-1\n# t=0\nx\ty\tz\tr"
+  for (i = 0; i < 512; i++)
+    printf "%g\t%g\t%g\t%g\n", (i % 8 + 0.5) / 8, (int(i / 8) % 8 + 0.5) / 8,
+      (int(i / 64) + 0.5) / 8, 0.03
+  print "# status=ok"}' >"$T/small"
+for bed in one small; do
+  [[ $bed == small ]] ||
+    printf '# t=0\nx\ty\tz\tr\n.5\t.5\t.5\t.25\n# status=ok\n' >"$T/one"
+  hand freezethaw "$T/$bed" --output "$T/freeze-$bed"
+  check "freezethaw, $bed: the domain and the profile" awk '
+    $2 == "xi_gl" {
+      split($3, w, "/"); c = $5 < 0 ? -$5 : $5
+      if (c <= 0.01) wide = w[2]
+      if (!most || c > most) most = c
+    }
+    $1 ~ /^L[123]$/ {side[$1] = $2}
+    $1 == "xi_gl" {given = $2}
+    END {
+      d = side["L3"] - 2 * side["L1"]
+      exit !(side["L1"] > 0 && d * d < 1e-20 && given == "L3/" wide)
+    }' "$T/freeze-$bed/Params"
+done
+check 'freezethaw: one as wide as may be and one that is not' test "$(cat \
+  "$T"/freeze-{one,small}/Params | sed -n 's/^xi_gl *//p' | tr '\n' ' ')" = \
+  'L3/300 L3/1000 '
+
+# --- OpenFOAM: cubes, so many along the longest side
+hand openfoam "$T/one" --box 0,1,0,2,0,4 --cells 8 --output "$T/block"
+check 'openfoam: cubes' grep -q '^ *hex (0 1 2 3 4 5 6 7) (2 4 8) ' \
+  "$T/block/system/blockMeshDict"
+
 # --- OpenFOAM: the axis of a leaning tube and the normal of the wall across it
 {
   printf '# format=bed-1\n# t=0\n# cylinder=0.5 0.5 0 0.6 0 0.8 0.4\n'
@@ -66,6 +134,70 @@ timeout 60 "$B/analyze" fraction --box 0,1,0,1,0,0.500000000000001 --slab 0.25 \
 check 'fraction: as good as two slabs' test $? = 0
 refused 3 'a box too small' "$B/analyze" fraction \
   --box 0,1e-4,0,1e-4,0,0.50000001 --slab 0.25 "$T/two"
+
+# --- profiles begin at the box's lower side
+timeout 60 "$B/analyze" profile --box 0,1,0,1,1,2 --points 2 "$T/two" >"$T/out" \
+  2>"$T/err"
+check 'profile: heights' test "$(awk '/^[0-9]/ {print $2}' "$T/out" |
+  tr '\n' ' ')" = '1.25 1.75 '
+
+# --- LAMMPS: a step for the lightest sphere, 2.5e-5 s times the root of its mass
+{
+  printf '# format=bed-1\n# t=0\n# wall=0 0 0 0 0 -1\nid\tx\ty\tz\tr\tm\n'
+  printf '0\t.3\t.3\t.3\t.1\t4\n1\t.7\t.7\t.7\t.1\t.25\n# status=ok\n'
+} >"$T/masses"
+"$B/settle" --quiet --scene "$T/masses" --model basic --f0 10 --time 1 \
+  --export-lammps "$T/lammps" >"$T/out" 2>"$T/err"
+check 'lammps: the step' grep -qx 'timestep 1.25e-05' "$T/lammps/in.scene"
+
+# --- what is read: nan begins a sphere, and an empty file is one, wherever it stands
+printf 'x\ty\tz\tr\nnan\t0\t0\t1\n' >"$T/nan"
+refused 3 "nan:2: column x is 'nan'" "$B/analyze" fraction "$T/nan"
+: >"$T/empty"
+"$B/analyze" fraction --box 0,1,0,1,0,1 "$T/two" "$T/empty" >"$T/out" 2>"$T/err"
+check 'an empty file behind another: status' test $? = 3
+check 'an empty file behind another' grep -q 'empty:0: nothing is in' "$T/err"
+
+# --- the method that a setting asks for, and what help says of it
+"$B/settle" --help >"$T/help"
+check 'settle --help: the usual method' grep -q -e \
+  '--method NAME .*\[multirate; rkc with' "$T/help"
+check 'settle: the usual method' grep -qx '# method=multirate' \
+  <("$B/settle" --quiet --count 1 --time 0)
+check 'settle --step: rkc' grep -qx '# method=rkc' \
+  <("$B/settle" --quiet --count 1 --time 0 --step 1e-3)
+
+# --- pictures: what gnuplot is given, by one that keeps it and draws nothing
+long=$T/$(printf '%0200d' 1)
+mkdir "$T/bin" "$long"
+cp "$T/two" "$long/bed"
+cat >"$T/bin/gnuplot" <<'end'
+#!/bin/bash
+case ${*: -1} in
+  *.png) cp "${@: -2:1}" "$SHOWN"; printf '\x89PNG\r\n\x1a\n0000IHDR' ;;
+  *.gif) printf 'GIF89a0000\00000;' ;;
+esac >"${@: -1}"
+end
+chmod +x "$T/bin/gnuplot"
+PATH=$T/bin:$PATH SHOWN=$T/shown "$B/analyze" draw --quiet --output "$T/x.png" \
+  "$T/two" 2>"$T/err"
+check 'draw: exit status' test $? = 0
+check 'draw: each sphere where it is' cmp -s <(sed 1,2d "$T/shown" | cut -f 1-4) \
+  <(printf '0.25\t0.3\t0.35\t0.2\n0.6\t0.65\t0.7\t0.125\n')
+PATH=$T/bin:$PATH SHOWN=$T/shown "$B/analyze" movie --quiet "$long/bed" \
+  >"$T/x.gif" 2>"$T/err"
+check 'movie: exit status' test $? = 0
+check 'movie: the text in parts of at most 255 letters' awk '
+  {for (k = 1; k <= NF; k++) byte[n++] = $k}
+  END {
+    if (byte[13] != 33 || byte[14] != 254) exit 1
+    for (at = 15; byte[at] > 0; at += byte[at] + 1) {
+      parts++
+      for (k = 1; k <= byte[at]; k++) text = text sprintf("%c", byte[at + k])
+    }
+    exit !(parts > 1 && text ~ /^program=analyze\nversion=/ &&
+      text ~ /\ncommand=analyze movie .*01\/bed\n/ && byte[at + 1] == 59)
+  }' <(od -An -v -tu1 "$T/x.gif")
 
 # --- settle: a tube that is wider than a sphere and narrower than a place
 "$B/settle" --quiet --count 3 --cylinder 0,0,0,0,0,1,0.115 --jitter 0 --time 0 \
