@@ -4,6 +4,7 @@
 # scene of a few spheres has by hand. Run from the root of the repository; B is the
 # directory of the programs.
 . tests/harness.sh
+. tests/faults.sh
 
 hand() { # FORMAT FILE OPTION...: what is said goes to $T/said
   timeout 60 "$B/analyze" export --format "$1" "${@:3}" "$2" </dev/null \
@@ -198,6 +199,67 @@ check 'movie: the text in parts of at most 255 letters' awk '
     exit !(parts > 1 && text ~ /^program=analyze\nversion=/ &&
       text ~ /\ncommand=analyze movie .*01\/bed\n/ && byte[at + 1] == 59)
   }' <(od -An -v -tu1 "$T/x.gif")
+
+# A gnuplot that is done is not ended, whose number another process may have by
+# then; one that is not is.
+if make_faults; then
+  printf '#!/bin/sh\nkill -s INT $PPID\nsleep 0.3\n' >"$T/bin/gnuplot-that-waits"
+  chmod +x "$T/bin/gnuplot-that-waits"
+  for ends in no yes; do
+    [[ $ends == no ]] || mv "$T/bin/gnuplot-that-waits" "$T/bin/gnuplot"
+    PATH=$T/bin:$PATH SHOWN=$T/shown FAULT=kill:1 FAULT_DONE=$T/killed \
+      env --default-signal LD_PRELOAD="$T/faults.so" \
+      "$B/analyze" draw --quiet --output "$T/x.png" "$T/two" 2>"$T/err"
+    check "gnuplot is ended: $ends" test \
+      "$([[ -e $T/killed ]] && echo yes || echo no)" = $ends
+  done
+fi
+
+# --- LAMMPS: three sides; numbers from 1 on
+hand lammps "$T/two" >"$T/dump"
+check 'lammps: the sides' grep -qx 'ITEM: BOX BOUNDS ff ff ff' "$T/dump"
+
+# --- names of files with numbers of at most 19 digits
+refused 2 'expected one %d or %04d' "$B/analyze" export --format positions \
+  --frames all --output "$T/a%020d" "$T/two"
+hand positions "$T/two" --frames all --output "$T/a%019d"
+check 'names: 19 digits' test -s "$T/a0000000000000000000"
+
+# --- manual pages end, and have all that the help has
+timeout 20 "$B/analyze" order --man | tr -d '\\' >"$T/man"
+check 'a manual page ends' test "${PIPESTATUS[0]}" = 0
+check 'a manual page: each line of the summary' test "$("$B/analyze" order --help |
+  sed -n '2,/^$/{s/^ *//;/./p}' | while read -r line; do
+    grep -qF -- "${line:0:30}" "$T/man" || echo "$line"; done)" = ''
+
+# --- a checkpoint that a killed run has begun is in nobody's way
+printf 'half of one' >"$T/check.partial"
+"$B/settle" --quiet --count 2 --time 0.01 --output "$T/bed" \
+  --checkpoint "$T/check" --every 0 2>"$T/err"
+check 'a partial checkpoint: exit status' test $? = 0
+check 'a partial checkpoint: made anew' test "$(head -n 1 "$T/check")" = \
+  '# format=settle-checkpoint-1' -a ! -e "$T/check.partial"
+
+# --- settle: which sides have walls, and the load on the floor of a tube
+check 'periodic x: no walls across x' test "$("$B/settle" --quiet --periodic x \
+  --count 1 --time 0 | grep -c '^# wall=.* [-+]*1 0 0$')" = 0
+check 'periodic x: walls across y' test "$("$B/settle" --quiet --periodic x \
+  --count 1 --time 0 | grep -c '^# wall=.* 0 [-+]*1 0$')" = 2
+"$B/settle" --quiet --count 1 --overlap 0.01 --cylinder 0,0,0,0,0,1,1 --time 0 \
+  >"$T/bed" 2>"$T/err"
+check 'an upright tube has a base' test $? = 0
+refused 2 'a cylinder that leans' "$B/settle" --count 1 --overlap 0.01 \
+  --cylinder 0,0,0,0.6,0,0.8,1 --time 0
+
+# --- rest: what contacts store counts. A sphere begins deep in the floor, springs
+# up and has lost all that within 1 s: it rests when that is 5 s ago, not before
+{
+  printf '# format=bed-1\n# t=0\n# wall=0 0 0 0 0 -1\nid\tx\ty\tz\tr\tm\n'
+  printf '0\t0\t0\t.08\t.1\t1\n# status=ok\n'
+} >"$T/deep"
+"$B/settle" --quiet --scene "$T/deep" --time 20 --until-rest --stats "$T/stats" \
+  >"$T/out" 2>"$T/err"
+within 'the end' "$(sed -n 's/^t_end\t//p' "$T/stats")" 5.3 7
 
 # --- settle: a tube that is wider than a sphere and narrower than a place
 "$B/settle" --quiet --count 3 --cylinder 0,0,0,0,0,1,0.115 --jitter 0 --time 0 \
