@@ -501,8 +501,10 @@ static void fill(const struct settings *s, const struct bed *below,
         "the walls with --fill %s",
         s->fill.count, widest, fill_ways[way].name);
   if (s->fill.base[0] < 2.5 * widest || s->fill.base[1] < 2.5 * widest)
-    die(EXIT_USAGE, "--base %g,%g: not one sphere of radius %g fits",
-        s->fill.base[0], s->fill.base[1], widest);
+    die(EXIT_USAGE,
+        "%s: not one sphere of radius %g fits into %g by %g m with --jitter %g",
+        s->fill.centred ? "--cylinder" : "--base", widest, s->fill.base[0],
+        s->fill.base[1], s->fill.jitter);
   die(EXIT_USAGE,
       "--count %zu: not so many spheres of radius %g fit between the walls "
       "above --drop %g with --jitter %g",
