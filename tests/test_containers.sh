@@ -64,7 +64,7 @@ tube=0.3,0.2,0,0,0,1,0.35
 refused 2 'no wider than a bead' "$B/settle" --cylinder 0,0,0,0,0,1,0.1
 refused 2 'expected px,py,pz,ax,ay,az,R' "$B/settle" --cylinder 0,0,0,0,0,0,1
 refused 2 'not so many spheres' "$B/settle" --cylinder 0,0,0,1,0,0,0.5
-refused 2 '^settle: --cylinder: .*with --jitter 0.25' "$B/settle" \
+refused 2 'cylinder: not one sphere of radius 0.1 fits into 0.22 by 0.22 m with' "$B/settle" \
   --cylinder 0.11,0.11,0,0,0,1,0.11
 for method in rkc multirate merson; do
   "$B/settle" --quiet --cylinder $tube --count 30 --method $method --time 1.2 \
