@@ -13,6 +13,7 @@
 #include <string.h>
 #include "check.h"
 #include "limit.h"
+#include "dynamics/contact_list.h"
 #include "dynamics/dynamics.h"
 #include "oracle.h"
 #include "sample.h"
@@ -531,6 +532,30 @@ static void test_span(void) {
                         : 0,
                 4 * DBL_EPSILON * force);
   }
+  dynamics_free(d);
+  sample_free(&s);
+}
+
+/* Spheres that are all apart, without walls: as many rows for each thread. */
+static void test_shares(void) {
+  enum { EACH = 100, THREADS = 4, N = EACH * THREADS };
+  struct sample s = {.scene = scene_default()};
+  CHECK(bed_alloc(&s.bed, N) == GSL_SUCCESS);
+  double y[ROW_SPIN * N];
+  for (size_t i = 0; i < N; i++) {
+    s.bed.r[i] = 0.1;
+    s.bed.m[i] = 1;
+    s.bed.x[3 * i] = (double)i;
+  }
+  struct dynamics *d =
+      new_dynamics(&s, &(struct dynamics_options){.threads = 1});
+  struct contact_list *l = NULL;
+  dynamics_pack(d, &s.bed, y);
+  CHECK(contact_list_alloc(&l, &s.scene, &s.bed, THREADS, NULL) == GSL_SUCCESS);
+  CHECK(contact_list_update(l, y) == GSL_SUCCESS && contact_list_size(l) == 0);
+  for (size_t p = 0; p < THREADS; p++)
+    CHECK(l->part[p].from == EACH * p && l->part[p].to == EACH * (p + 1));
+  contact_list_free(l);
   dynamics_free(d);
   sample_free(&s);
 }
@@ -1383,6 +1408,7 @@ static void test_kernel(gsl_rng *rng, unsigned long kernel) {
   test_threads(rng);
   test_stage(rng);
   test_span();
+  test_shares();
   test_skin(rng);
   test_last_contact();
   for (int m = 0; m < 3; m++) {

@@ -200,6 +200,27 @@ check 'movie: the text in parts of at most 255 letters' awk '
       text ~ /\ncommand=analyze movie .*01\/bed\n/ && byte[at + 1] == 59)
   }' <(od -An -v -tu1 "$T/x.gif")
 
+# What is left when all pictures are drawn is one part of all
+if command -v script >/dev/null; then
+  cat >"$T/bin/gnuplot-in-time" <<end
+#!/bin/bash
+[[ \${*: -1} != *.gif ]] || for ((k = 0; k < 500; k++)); do
+  grep -q '%' "$T/terminal" && break
+  sleep 0.02
+done
+exec "$T/bin/gnuplot" "\$@"
+end
+  mkdir "$T/slow"
+  mv "$T/bin/gnuplot-in-time" "$T/slow/gnuplot"
+  chmod +x "$T/slow/gnuplot"
+  PATH=$T/slow:$PATH SHOWN=$T/shown script -qfec \
+    "'$B/analyze' movie --output '$T/y.gif' '$T/two'" "$T/terminal" >"$T/out"
+  check 'movie: half is done, of one picture and the film' test \
+    "$(grep -oE '[0-9]+ %' "$T/terminal" | sort -u)" = '50 %'
+else
+  echo 'skipped: the share of a film that is done (script is not installed)'
+fi
+
 # A gnuplot that is done is not ended, whose number another process may have by
 # then; one that is not is.
 if make_faults; then
