@@ -75,6 +75,10 @@ check 'stl: the sphere and its copy' test "$(wc -c <"$T/stl")" = \
   $((84 + 2 * 20 * 50))
 check 'stl: its head' grep -aq '20 facets each, 0\.[0-9]* of a ball' "$T/stl"
 
+printf '# t=0\nx\ty\tz\tr\n0\t0\t0\t4\n10\t0\t0\t1\n# status=ok\n' >"$T/unequal"
+refused 3 'at places of 11; fewer cells' "$B/analyze" export --format stl --merged \
+  --cells 100000 "$T/unequal"
+
 # --- the solver of freezing: twice as high as it is wide, and the widest profile
 # that changes the fraction by at most 0.01
 awk 'BEGIN {
@@ -145,10 +149,12 @@ check 'profile: heights' test "$(awk '/^[0-9]/ {print $2}' "$T/out" |
 # --- LAMMPS: a step for the lightest sphere, 2.5e-5 s times the root of its mass
 {
   printf '# format=bed-1\n# t=0\n# wall=0 0 0 0 0 -1\nid\tx\ty\tz\tr\tm\n'
-  printf '0\t.3\t.3\t.3\t.1\t4\n1\t.7\t.7\t.7\t.1\t.25\n# status=ok\n'
+  printf '2000\t.3\t.3\t.3\t.1\t4\n2001\t.7\t.7\t.7\t.1\t.25\n# status=ok\n'
 } >"$T/masses"
 "$B/settle" --quiet --scene "$T/masses" --model basic --f0 10 --time 1 \
   --export-lammps "$T/lammps" >"$T/out" 2>"$T/err"
+check 'lammps: numbers from 1 on' test "$(awk '/^Atoms/ {on = 1; next}
+  /^Velocities/ {on = 0} on && NF {printf "%s ", $1}' "$T/lammps/bed.data")" = '1 2 '
 check 'lammps: the step' grep -qx 'timestep 1.25e-05' "$T/lammps/in.scene"
 
 # --- what is read: nan begins a sphere, and an empty file is one, wherever it stands
@@ -236,7 +242,7 @@ if make_faults; then
   done
 fi
 
-# --- LAMMPS: three sides; numbers from 1 on
+# --- LAMMPS: three sides
 hand lammps "$T/two" >"$T/dump"
 check 'lammps: the sides' grep -qx 'ITEM: BOX BOUNDS ff ff ff' "$T/dump"
 
