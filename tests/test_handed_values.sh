@@ -158,12 +158,24 @@ check 'lammps: numbers from 1 on' test "$(awk '/^Atoms/ {on = 1; next}
 check 'lammps: the step' grep -qx 'timestep 1.25e-05' "$T/lammps/in.scene"
 
 # --- what is read: nan begins a sphere, and an empty file is one, wherever it stands
-printf 'x\ty\tz\tr\nnan\t0\t0\t1\n' >"$T/nan"
-refused 3 "nan:2: column x is 'nan'" "$B/analyze" fraction "$T/nan"
+printf '# format=bed-1\nx\ty\tz\tr\nnan\t0\t0\t1\n' >"$T/nan"
+refused 3 "nan:3: column x is 'nan'" "$B/analyze" fraction "$T/nan"
 : >"$T/empty"
-"$B/analyze" fraction --box 0,1,0,1,0,1 "$T/two" "$T/empty" >"$T/out" 2>"$T/err"
-check 'an empty file behind another: status' test $? = 3
-check 'an empty file behind another' grep -q 'empty:0: nothing is in' "$T/err"
+printf 'ITEM: %s\n' $'TIMESTEP\n0' $'NUMBER OF ATOMS\n0' \
+  $'BOX BOUNDS ff ff ff\n0 1\n0 1\n0 1' 'ATOMS id x y z radius' >"$T/nobody"
+for none in empty nobody; do
+  "$B/analyze" contacts "$T/two" "$T/$none" >"$T/out" 2>"$T/err"
+  check "$none behind a bed: status" test $? = 3
+  check "$none behind a bed" grep -Eq \
+    "$none:(0: nothing is in| no frame has spheres)" "$T/err"
+done
+
+# --- a tolerance that is finer than softness lets see is noted, with steps of its own
+for option in '--tol 1e-5' '--step 1e-3'; do
+  "$B/settle" --count 60 --time 0 $option >"$T/out" 2>"$T/err"
+  check "settle $option" test "$(grep -c 'finer than softness' "$T/err")" = \
+    "$([[ $option == --tol* ]] && echo 1 || echo 0)"
+done
 
 # --- the method that a setting asks for, and what help says of it
 "$B/settle" --help >"$T/help"
@@ -220,7 +232,7 @@ end
   mv "$T/bin/gnuplot-in-time" "$T/slow/gnuplot"
   chmod +x "$T/slow/gnuplot"
   PATH=$T/slow:$PATH SHOWN=$T/shown script -qfec \
-    "'$B/analyze' movie --output '$T/y.gif' '$T/two'" "$T/terminal" >"$T/out"
+    "'$B/analyze' movie --output '$T/y.gif' '$T/two'" "$T/terminal" >"$T/out" </dev/null
   check 'movie: half is done, of one picture and the film' test \
     "$(grep -oE '[0-9]+ %' "$T/terminal" | sort -u)" = '50 %'
 else
