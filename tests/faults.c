@@ -92,7 +92,10 @@ int link(const char *from, const char *to) {
 
 int unlink(const char *path) {
   REAL(int, "unlink", const char *);
-  return done(real(path));
+  if (!fails("unlink"))
+    return done(real(path));
+  errno = EIO;
+  return -1;
 }
 
 int fclose(FILE *stream) {

@@ -242,6 +242,14 @@ fi
 # A gnuplot that is done is not ended, whose number another process may have by
 # then; one that is not is.
 if make_faults; then
+  # the data, the picture and the film, once each
+  for k in 3 4; do
+    PATH=$T/bin:$PATH SHOWN=$T/shown FAULT=unlink:$k FAULT_DONE=$T/unlinked-$k \
+      LD_PRELOAD="$T/faults.so" "$B/analyze" movie --quiet "$T/two" >"$T/y.gif" \
+      2>"$T/err"
+  done
+  check 'movie: three files of its own' test -e "$T/unlinked-3" -a ! -e \
+    "$T/unlinked-4"
   printf '#!/bin/sh\nkill -s INT $PPID\nsleep 0.3\n' >"$T/bin/gnuplot-that-waits"
   chmod +x "$T/bin/gnuplot-that-waits"
   for ends in no yes; do
