@@ -75,9 +75,9 @@ check 'stl: the sphere and its copy' test "$(wc -c <"$T/stl")" = \
   $((84 + 2 * 20 * 50))
 check 'stl: its head' grep -aq '20 facets each, 0\.[0-9]* of a ball' "$T/stl"
 
-printf '# t=0\nx\ty\tz\tr\n0\t0\t0\t4\n10\t0\t0\t1\n# status=ok\n' >"$T/unequal"
-refused 3 'at places of 11; fewer cells' "$B/analyze" export --format stl --merged \
-  --cells 100000 "$T/unequal"
+printf '# t=0\nx\ty\tz\tr\n0\t0\t0\t10\n11\t0\t0\t.5\n# status=ok\n' >"$T/unequal"
+refused 3 'at places of 12; fewer cells' "$B/analyze" export --format stl --merged \
+  --cells 40000 --box=-10,11.5,-0.01,0.01,-0.01,0.01 "$T/unequal"
 
 # --- the solver of freezing: twice as high as it is wide, and the widest profile
 # that changes the fraction by at most 0.01
