@@ -60,6 +60,18 @@ static void test_mode(void) {
   }
 }
 
+/* Where no contact is, and where one gives back more than it takes: nothing
+   that decays, so the angle of what only just does not. */
+static void test_no_decay(void) {
+  struct drop d = standard(1.2);
+  const double far[] = {1e4, 0},
+               rest[] = {closed_rest_gap(&d.law, d.gravity), 0};
+  CHECK(drop_mode(&d, far).radius == 0);
+  CHECK(drop_mode(&d, far).angle == M_PI_2);
+  CHECK(drop_mode(&d, rest).radius > 0);
+  CHECK(drop_mode(&d, rest).angle == M_PI_2);
+}
+
 static void test_bounce(void) {
   struct drop d = standard(1);
   d.travel = 1 / d.law.kappa;
@@ -121,6 +133,7 @@ int main(void) {
   gsl_set_error_handler_off();
   test_slopes();
   test_mode();
+  test_no_decay();
   test_bounce();
   test_implicit();
   return check_done();

@@ -196,6 +196,17 @@ static void test_estimate_edges(void) {
   const gsl_odeiv2_system flat = {constant, NULL, dim, &dim};
   CHECK(stiffness_estimate(s, &flat, 0, y, f, 3, &mode) == GSL_SUCCESS);
   CHECK(mode.radius == 0);
+  /* growth, which no method damps, has the angle of what only just does not */
+  double growth[2] = {3, 0}, first[4] = {3, 0, 0, 0};
+  const double one[4] = {1, 0, 0, 0};
+  dim = 2;
+  stiffness_free(s);
+  if (!CHECK(stiffness_alloc(&s, dim) == GSL_SUCCESS))
+    return;
+  const gsl_odeiv2_system grows = {stiffness_linear, NULL, dim, growth};
+  CHECK(stiffness_estimate(s, &grows, 0, one, first, 20, &mode) == GSL_SUCCESS);
+  CHECK_CLOSE(mode.radius, 3, 1e-6);
+  CHECK(mode.angle == M_PI_2);
   stiffness_free(s);
 }
 
