@@ -5,6 +5,7 @@
 # something fails.
 set -u
 export LC_ALL=C.UTF-8 # what gnuplot needs for its labels
+export OMP_WAIT_POLICY=passive # threads that wait leave a busy machine to others
 B=${B:-build}
 T=$(mktemp -d) || exit 1
 trap 'rm -rf "$T"' EXIT

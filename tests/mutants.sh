@@ -18,8 +18,8 @@
 # Mutants are spread over files by their length and over kinds: comparisons shifted
 # by the case of equality, conditions negated, && and ||, + - * /, constants, true,
 # false and the like, statements left out; not how much memory there is and what
-# frees it, which is for the sanitizers. Which ones depends on SEED and on the text
-# of the lines alone, so that more of them (NUMBER) are those and others.
+# frees it, which is for the sanitizers. Which ones depends on SEED, the lines
+# and their numbers alone, so that more of them (NUMBER) are those and others.
 #
 # What is tried on a mutant are the tests that run its line, as gcov has seen once
 # (B/mutants/cover; minutes, and again for tests that have changed): first those that
