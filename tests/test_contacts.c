@@ -209,8 +209,9 @@ static void test_column(void) {
   network_net_force(&w, &s, &b, force);
   for (size_t k = 0; k < 3 * N; k++)
     CHECK_CLOSE(force[k], 0, 1e-9 * weight);
-  double fabric[6];
+  double fabric[7] = {[6] = 17}; /* six of it are written */
   CHECK(network_fabric(&w, &b, NULL, fabric) == N - 1);
+  CHECK(fabric[6] == 17);
   CHECK_CLOSE(fabric[2], 1, eps);
   CHECK_CLOSE(network_anisotropy(fabric), 1, 4 * eps);
   network_free(&w);

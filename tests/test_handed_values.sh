@@ -169,6 +169,9 @@ for none in empty nobody; do
   check "$none behind a bed" grep -Eq \
     "$none:(0: nothing is in| no frame has spheres)" "$T/err"
 done
+check 'a profile of no spheres is empty' test \
+  "$("$B/analyze" profile --points 2 --box 0,1,0,1,0,2 "$T/nobody" |
+    awk -F '\t' 'NR > 1 {n++; sum += $3 + $4} END {print n, sum + 0}')" = '2 0'
 
 # --- a tolerance that is finer than softness lets see is noted, with steps of its own
 for option in '--tol 1e-5' '--step 1e-3'; do

@@ -284,6 +284,22 @@ static void test_let_go(void) {
   bed_free(&b);
 }
 
+/* A sphere that an obstacle pushes onto one that was far from it. */
+static void test_pushed_far(void) {
+  struct scene s = scene_default();
+  s.model = SCENE_BASIC;
+  s.gravity[2] = 0;
+  for (int k = 0; k < 20; k++) {
+    struct bed b = new_bed(3);
+    CHECK(bed_fix_none(&b) == GSL_SUCCESS);
+    b.fixed[0] = true;
+    b.x[3] = 0.02;
+    b.x[6] = 0.2 + 0.01 * k;
+    push(&s, &b);
+    bed_free(&b);
+  }
+}
+
 int main(void) {
   gsl_set_error_handler_off();
   test_pairs();
@@ -292,5 +308,6 @@ int main(void) {
   test_crowds();
   test_stays();
   test_let_go();
+  test_pushed_far();
   return check_done();
 }
