@@ -11,6 +11,7 @@ readme: ## put the figures' captions into README.md and docs/
 # or by another name there. Those that have been made are copied.
 SHOWN := bench budget bulk fig4.3 friction gr growth growth-rest handover hardening \
   hardness precision-contrast precision-horizon precision-settling \
+  precision-tolerance \
   stability-creep stability-cut stability-drift \
   stability-map stability-regions stability-steps stability-tunnel \
   stability-vibration stability-wrong-bed tubes walls

@@ -28,7 +28,8 @@ declare -A makes=(
     precision-orders.md:14'
   [impacts]='impacts.svg'
   [settling]='precision-settling.svg precision-settling.md:18'
-  [seeds]='precision-seeds.md:3' [tolerance]='precision-tolerance.md:16'
+  [seeds]='precision-seeds.md:3'
+  [tolerance]='precision-tolerance.svg precision-tolerance.md:16'
   [trajectories]='precision-trajectory-8-position-evaluations.svg
     precision-trajectory-8-position-cpu_seconds.svg
     precision-trajectory-8-basic-position-evaluations.svg

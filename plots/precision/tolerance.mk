@@ -17,7 +17,9 @@ TOLERANCE_RUNS := friction-0.2,rkc,5e-4,40 friction-0.2,multirate,5e-4,1000 \
   $(foreach t,5e-4 2e-3,friction-0.1,multirate,$(t),200 \
     friction-0.5,multirate,$(t),200 no-friction,multirate,$(t),400 \
     kappa-600,multirate,$(t),40 at-rest,multirate,$(t),60 \
-    $(if $(QUICK),,$(t:%=2000-spheres$(comma)multirate$(comma)%$(comma)10)))
+    $(if $(QUICK),,$(t:%=2000-spheres$(comma)multirate$(comma)%$(comma)10))) \
+  $(if $(QUICK),,2000-spheres$(comma)rkc$(comma)5e-4$(comma)3 \
+    $(patsubst %,2000-spheres$(comma)multirate$(comma)%$(comma)10,0.01 0.05))
 
 # $(call tolerance_run,NAME METHOD TOL SEEDS)
 tolerance_file = $(TOLERANCE)/$(word 1,$(1))-$(word 2,$(1))-$(word 3,$(1)).tsv
@@ -32,10 +34,13 @@ endef
 $(foreach r,$(TOLERANCE_RUNS),\
   $(eval $(call tolerance_run,$(subst $(comma), ,$(r)))))
 
-tolerance: $(F)/precision-tolerance.md ## what --tol does to beds, 1,000 of them seed by seed (an hour)
+tolerance: $(F)/precision-tolerance.md $(F)/precision-tolerance.svg ## what --tol does to beds, 1,000 of them seed by seed (an hour)
 	@cat $<
 $(TOLERANCE)/table.tsv: plots/precision/tolerance.sh \
   $(foreach r,$(TOLERANCE_RUNS),$(call tolerance_file,$(subst $(comma), ,$(r))))
 	$< table $(filter %.tsv,$^) > $@
 $(F)/precision-tolerance.md: $(TOLERANCE)/table.tsv
+$(F)/precision-tolerance.svg: plots/precision/tolerance.gp plots/style.gp \
+  $(TOLERANCE)/table.tsv
+	$(draw)
 .PHONY: tolerance
