@@ -23,7 +23,7 @@ most=$(fraction "$T/smooth") least=$(fraction "$T/rough")
 within 'friction makes room' "$(awk -v a="$most" -v b="$least" \
   'BEGIN { print a - b }')" 0.05 0.2
 
-middle=$(awk -v a="$most" -v b="$least" 'BEGIN { printf "%.3f", (a + b) / 2 }')
+middle=$(awk -v a="$most" -v b="$least" 'BEGIN { printf "%.3g", (a + b) / 2 }')
 "$B/settle" --quiet "${bed[@]}" --target-fraction "$middle" >"$T/bed" 2>"$T/err"
 check 'found' test $? = 0
 check 'says friction and interval' grep -Eq \
