@@ -462,6 +462,32 @@ static double stat_of(const struct run_watch *w, const char *key) {
   return value;
 }
 
+/* A sphere by itself, whose energies are made up. */
+struct lone {
+  struct scene scene;
+  struct bed bed;
+  struct integrate_options options;
+  struct motion *motion;
+};
+
+static struct lone lone_new(void) {
+  struct lone l = {.scene = scene_default(),
+                   .options = {.method = "rkc", .hinit = 1e-3}};
+  CHECK(bed_alloc(&l.bed, 1) == GSL_SUCCESS);
+  l.bed.r[0] = 0.1;
+  integrate_defaults(&l.options);
+  CHECK(motion_alloc(&l.motion, &l.scene, &l.bed, &l.options,
+                     &(struct dynamics_options){.threads = 1},
+                     0) == GSL_SUCCESS);
+  return l;
+}
+
+static void lone_free(struct lone *l) {
+  motion_free(l->motion);
+  bed_free(&l->bed);
+  scene_free(&l->scene);
+}
+
 /* Energy from nowhere, or into it where none can be lost: warned of beyond 1 %
    of what has become motion, once. */
 static void test_energy(void) {
@@ -471,21 +497,12 @@ static void test_energy(void) {
     size_t warnings;
   } cases[] = {{1.0099, false, 0}, {1.0102, false, 1}, {0.9901, true, 0},
                {0.9899, true, 1},  {0.9, false, 0},    {1.0099, true, 0}};
-  struct scene scene = scene_default();
-  struct bed b;
-  CHECK(bed_alloc(&b, 1) == GSL_SUCCESS);
-  b.r[0] = 0.1;
-  struct integrate_options o = {.method = "rkc", .hinit = 1e-3};
-  integrate_defaults(&o);
-  struct motion *m = NULL;
-  CHECK(motion_alloc(&m, &scene, &b, &o,
-                     &(struct dynamics_options){.threads = 1},
-                     0) == GSL_SUCCESS);
+  struct lone l = lone_new();
   for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
     struct run_watch *w = NULL;
     CHECK(run_watch_alloc(&w, &(struct run_watch_options){
-                                  .integrate = &o,
-                                  .integrator = m->integrator,
+                                  .integrate = &l.options,
+                                  .integrator = l.motion->integrator,
                                   .whose = "the test's",
                                   .nobody = cases[k].kept ? "e = 1" : NULL,
                                   .quiet = true}) == GSL_SUCCESS);
@@ -503,27 +520,16 @@ static void test_energy(void) {
     CHECK(run_watch_energy(w, GSL_NAN, 0, 0) == GSL_ERANGE);
     run_watch_free(w);
   }
-  motion_free(m);
-  bed_free(&b);
-  scene_free(&scene);
+  lone_free(&l);
 }
 
 /* A watch that takes over goes on with the energies of the first: what that one
    had seen as the least is what is gained from, what it had warned of is not
    said again, and its statistics are those of one watch all along. */
 static void test_energy_goes_on(void) {
-  struct scene scene = scene_default();
-  struct bed b;
-  CHECK(bed_alloc(&b, 1) == GSL_SUCCESS);
-  b.r[0] = 0.1;
-  struct integrate_options o = {.method = "rkc", .hinit = 1e-3};
-  integrate_defaults(&o);
-  struct motion *m = NULL;
-  CHECK(motion_alloc(&m, &scene, &b, &o,
-                     &(struct dynamics_options){.threads = 1},
-                     0) == GSL_SUCCESS);
-  const struct run_watch_options set = {.integrate = &o,
-                                        .integrator = m->integrator,
+  struct lone l = lone_new();
+  const struct run_watch_options set = {.integrate = &l.options,
+                                        .integrator = l.motion->integrator,
                                         .whose = "the test's",
                                         .quiet = true};
   /* 1 J of gravity, of which 0.5 J are left as motion; 1.5 J later */
@@ -559,9 +565,7 @@ static void test_energy_goes_on(void) {
     run_watch_free(w);
     run_watch_free(next);
   }
-  motion_free(m);
-  bed_free(&b);
-  scene_free(&scene);
+  lone_free(&l);
 }
 
 int main(void) {
