@@ -29,7 +29,8 @@ set bmargin at screen 0.53
 set logscale y
 set format y "10^{%T}"
 set format x ""
-set ylabel "CPU time to ".(strstrt(ARG1, "-rest") ? "rest" : "8 s")." (s)"
+rests = int(system("grep -c 'end (s)' '".ARG1."'")) # runs with an end each
+set ylabel "CPU time to ".(rests ? "rest" : "8 s")." (s)"
 unset key
 plot for [r in runs] ARG1 using (strcol("run") eq r ? column("spheres") : NaN): \
   "CPU (s)" with linespoints lw line dt dash(r) pt point(r) ps symbol \

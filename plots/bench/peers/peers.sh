@@ -206,7 +206,7 @@ write_law() {
 # largest speed, appended to $tmp/runs. Output of the code goes to $tmp/output.
 run_peer() {
   local code=$1 program=$2 seed=$3 dt=$4 steps=$5 times=$6
-  local types=1
+  local types=1 end
   [ "$code" = lammps ] || types=2
   "$bin/settle" "${start[@]}" --seed "$seed" --time 0 --quiet | to_data $types > "$tmp/start"
   rm -f "$tmp/end"
