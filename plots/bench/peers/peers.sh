@@ -217,6 +217,7 @@ run_peer() {
     { time "$program" -in "$here/in.$code" -log none -screen "$tmp/output" \
       -var start "$tmp/start" -var law "$tmp/law" -var end "$tmp/end" \
       -var dt "$dt" -var steps "$steps" -var times "$times" -var width "$BASE" \
+      -var runs "$here/in.runs" \
       > /dev/null 2> "$tmp/errors"
     } 2> "$tmp/cpu"
   ) || [ ! -s "$tmp/end" ]; then
